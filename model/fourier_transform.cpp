@@ -1,0 +1,97 @@
+#include "model/fourier_transform.hpp"
+
+#include <cassert>
+#include <mutex>
+#include <type_traits>
+
+#include <fftw3.h>
+
+namespace nlcwfs {
+namespace {
+
+/// The FFTW planner is not thread-safe, and its lock must be one for all precisions' callers.
+std::mutex& planner_lock() {
+  static std::mutex lock;
+  return lock;
+}
+
+template <class Real>
+struct Fftw;
+
+template <>
+struct Fftw<double> {
+  using Plan = fftw_plan;
+  using Complex = fftw_complex;
+  static Plan plan(int length, Complex* line, int sign) {
+    return fftw_plan_dft_1d(length, line, line, sign, FFTW_ESTIMATE | FFTW_UNALIGNED);
+  }
+  static void execute(Plan plan, Complex* line) { fftw_execute_dft(plan, line, line); }
+  static void destroy(Plan plan) { fftw_destroy_plan(plan); }
+};
+
+template <>
+struct Fftw<float> {
+  using Plan = fftwf_plan;
+  using Complex = fftwf_complex;
+  static Plan plan(int length, Complex* line, int sign) {
+    return fftwf_plan_dft_1d(length, line, line, sign, FFTW_ESTIMATE | FFTW_UNALIGNED);
+  }
+  static void execute(Plan plan, Complex* line) { fftwf_execute_dft(plan, line, line); }
+  static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
+};
+
+}  // namespace
+
+template <class Real>
+struct LineTransform<Real>::Plans {
+  using Library = Fftw<Real>;
+  using Complex = typename Library::Complex;
+
+  explicit Plans(int length) {
+    Eigen::ArrayX<std::complex<Real>> line(length);
+    const std::scoped_lock lock(planner_lock());
+    forward = Library::plan(length, reinterpret_cast<Complex*>(line.data()), FFTW_FORWARD);
+    backward = Library::plan(length, reinterpret_cast<Complex*>(line.data()), FFTW_BACKWARD);
+  }
+  ~Plans() {
+    const std::scoped_lock lock(planner_lock());
+    Library::destroy(forward);
+    Library::destroy(backward);
+  }
+  Plans(const Plans&) = delete;
+  Plans& operator=(const Plans&) = delete;
+
+  typename Library::Plan forward;
+  typename Library::Plan backward;
+};
+
+template <class Real>
+LineTransform<Real>::LineTransform(int length) : length_(length) {
+  assert(length >= 1);
+  plans_ = std::make_shared<const Plans>(length);
+}
+
+template <class Real>
+void LineTransform<Real>::forward(std::complex<Real>* line) const {
+  Plans::Library::execute(plans_->forward, reinterpret_cast<typename Plans::Complex*>(line));
+}
+
+template <class Real>
+void LineTransform<Real>::backward(std::complex<Real>* line) const {
+  Plans::Library::execute(plans_->backward, reinterpret_cast<typename Plans::Complex*>(line));
+}
+
+template class LineTransform<float>;
+template class LineTransform<double>;
+
+int fast_transform_length(int minimum) {
+  for (int length = minimum + minimum % 2;; length += 2) {
+    int rest = length;
+    for (const int factor : {2, 3, 5, 7}) {
+      while (rest % factor == 0) rest /= factor;
+    }
+    if (rest == 1) return length;
+  }
+}
+
+}  // namespace nlcwfs
