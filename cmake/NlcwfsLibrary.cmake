@@ -18,6 +18,10 @@ function(nlcwfs_library name)
                           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nlcwfs>)
   target_link_libraries(nlcwfs_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   install(TARGETS nlcwfs_${name} EXPORT nlcwfsTargets)
-  file(GLOB headers CONFIGURE_DEPENDS *.hpp)
-  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nlcwfs/${name})
+  install(
+    DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nlcwfs/${name}
+    FILES_MATCHING
+    PATTERN "*.hpp"
+    PATTERN "*-[0-9]*" EXCLUDE) # runs that were written into results/
 endfunction()
