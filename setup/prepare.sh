@@ -41,14 +41,13 @@ install_packages() {
     if command -v sudo >/dev/null && { sudo -n true 2>/dev/null || [ -t 0 ]; }; then
       as_root=(sudo)
     else
-      say "packages are missing, and installing them takes root: $missing"
-      echo "Install them once with:"
-      echo "    sudo apt-get install $missing"
+      say "packages are missing that only root can install (with sudo or su), once:"
+      echo "    apt-get install $missing"
       explain_libraries
       exit 1
     fi
   fi
-  say "installing $(wc -w <<<"$missing") packages: $missing"
+  say "installing $(wc -w <<<"$missing") package(s): $missing"
   apt_get() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y -o DPkg::Lock::Timeout=300 "$@" \
       </dev/null >>$log 2>&1 9>&-
