@@ -1,0 +1,259 @@
+#include "studies/command_line.hpp"
+
+#include "model/input_error.hpp"
+#include "studies/text.hpp"
+#include "studies/units.hpp"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include <boost/program_options/cmdline.hpp>
+#include <boost/program_options/errors.hpp>
+#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/parsers.hpp>
+#include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr unsigned columns = 100;
+
+std::string value_name(const ConfigurationKey& key) {
+  switch (key.kind) {
+    case Kind::number:
+      return "NUMBER";
+    case Kind::integer:
+      return "INTEGER";
+    case Kind::seed:
+      return "SEED";
+    case Kind::length:
+      return "LENGTH";
+    case Kind::length_list:
+      return "LENGTHS";
+    case Kind::length_range:
+      return "MIN:MAX";
+    case Kind::time:
+      return "TIME";
+    case Kind::ramp:
+      return "NUMBER";
+    case Kind::choice:
+      return "WORD";
+    case Kind::text:
+      return "TEXT";
+  }
+  return "TEXT";
+}
+
+/// A value that Boost hands over as it stands.
+po::value_semantic* text_value(const std::string& name) {
+  return po::value<std::string>()->value_name(name);
+}
+
+/// The options that are no configuration keys.
+po::options_description general_options() {
+  std::vector<std::string> preset_texts;
+  for (const Preset& preset : presets()) {
+    preset_texts.push_back(fmt::format("{} ({})", preset.name, preset.description));
+  }
+  const std::string preset_text =
+      fmt::format("start from a named set of values: {}", fmt::join(preset_texts, ", "));
+  po::options_description options("Options", columns, columns / 2);
+  const auto add = [&](const char* name, const std::string& value, const std::string& text) {
+    options.add_options()(name, text_value(value), text.c_str());
+  };
+  const auto add_flag = [&](const char* name, const char* text) {
+    options.add_options()(name, text);
+  };
+  add("config", "FILE", "read a configuration file; of several, the later wins");
+  add("preset", "NAME", preset_text);
+  add("output", "DIR", "write the results there [results/<command>-<n>]");
+  add("threads", "N", "use this many cores, 0 = all [0]");
+  add_flag("quiet", "print no progress");
+  add_flag("dump-config", "print every key with its value as a configuration file, and stop");
+  add_flag("help", "print this text, and stop");
+  add_flag("version", "print the version, and stop");
+  return options;
+}
+
+/// The keys of the configuration, one group per section.
+po::options_description key_options() {
+  po::options_description all("Configuration keys [default], here or in a file", columns,
+                              columns / 2);
+  const auto section_of = [](const ConfigurationKey& key) {
+    return key.name.substr(0, key.name.find('.'));
+  };
+  const auto& keys = configuration_keys();
+  for (auto key = keys.begin(); key != keys.end();) {
+    const std::string section = section_of(*key);
+    po::options_description group(section, columns, columns / 2);
+    for (; key != keys.end() && section_of(*key) == section; ++key) {
+      std::string text = key->description;
+      if (!key->unit.empty()) text += fmt::format(" In {}.", key->unit);
+      if (key->kind == Kind::choice) text += fmt::format(" {}.", fmt::join(key->choices, " | "));
+      if (!key->default_text.empty()) text += fmt::format(" [{}]", key->default_text);
+      group.add_options()(key->name.c_str(), text_value(value_name(*key)), text.c_str());
+    }
+    all.add(group);
+  }
+  return all;
+}
+
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) names.push_back(command.name);
+  return names;
+}
+
+/// @param option  with its two dashes
+[[noreturn]] void refuse_missing_value(const std::string& option) {
+  const auto& keys = configuration_keys();
+  const auto key = std::ranges::find(keys, option.substr(2), &ConfigurationKey::name);
+  if (key != keys.end()) throw InputError(key->name, one_line(""), key->allowed());
+  throw InputError(option, one_line(""), "a value must follow");
+}
+
+[[noreturn]] void refuse_unknown(const std::string& option,
+                                 const po::options_description& options) {
+  std::vector<std::string> names;
+  for (const auto& known : options.options()) names.push_back(known->long_name());
+  std::string_view word = std::string_view(option).substr(0, option.find('='));
+  while (word.starts_with('-')) word.remove_prefix(1);
+  throw InputError("command line", one_line(option),
+                   fmt::format("unknown option; did you mean --{}?", nearest_word(word, names)));
+}
+
+std::vector<po::option> parse_options(int argc, const char* const* argv,
+                                      const po::options_description& options) {
+  try {
+    using namespace po::command_line_style;
+    return po::command_line_parser(argc, argv)
+        .options(options)
+        .style(allow_long | long_allow_next | long_allow_adjacent)
+        .run()
+        .options;
+  } catch (const po::unknown_option& error) {
+    refuse_unknown(error.get_option_name(), options);
+  } catch (const po::invalid_command_line_syntax& error) {
+    if (error.kind() == po::invalid_syntax::extra_parameter) {
+      throw InputError("command line", error.get_option_name(), "takes no value");
+    }
+    refuse_missing_value(error.get_option_name());
+  }
+}
+
+int parse_threads(const std::string& value) {
+  const auto threads = parse_integer(value);
+  if (!threads || *threads < 0 || *threads > 4096) {
+    throw InputError("--threads", one_line(value), "a whole number from 0 (all cores) to 4096");
+  }
+  return *threads;
+}
+
+}  // namespace
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> known{
+      {"evaluate", "measure one design: wavefront error, loops and time with standard errors"},
+      {"screens", "make phase screens: a FITS cube and its statistics"},
+      {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
+      {"optimize", "find a telescope's best design and verify it on fresh screens"}};
+  return known;
+}
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  po::options_description known = general_options();
+  known.add(key_options());
+
+  CommandLine result;
+  std::optional<std::string> preset;
+  std::vector<std::string> files;
+  std::vector<std::pair<std::string, std::string>> values;
+  std::set<std::string> seen;
+  for (const po::option& option : parse_options(argc, argv, known)) {
+    const std::string& key = option.string_key;
+    const std::string value = option.value.empty() ? "" : option.value.front();
+    if (option.position_key >= 0) {
+      if (value.starts_with('-')) refuse_unknown(value, known);
+      if (!result.command.empty()) {
+        throw InputError("command line", one_line(value),
+                         fmt::format("nothing may follow the command {} but options, such as "
+                                     "--telescope.diameter 0.5m",
+                                     result.command));
+      }
+      const auto names = command_names();
+      if (std::ranges::count(names, value) == 0) {
+        throw InputError("command", one_line(value),
+                         fmt::format("one of {}; did you mean {}?", fmt::join(names, ", "),
+                                     nearest_word(value, names)));
+      }
+      result.command = value;
+      continue;
+    }
+    if (!seen.insert(key).second && key != "config") {
+      throw InputError("command line",
+                       one_line(fmt::format("{}", fmt::join(option.original_tokens, " "))),
+                       "given twice; keep one of them");
+    }
+    if (key == "quiet") {
+      result.quiet = true;
+    } else if (key == "help") {
+      result.help = true;
+    } else if (key == "version") {
+      result.version = true;
+    } else if (key == "dump-config") {
+      result.dump_config = true;
+    } else if (value.empty() || value.starts_with("--")) {
+      refuse_missing_value("--" + key);
+    } else if (key == "config") {
+      files.push_back(value);
+    } else if (key == "preset") {
+      preset = value;
+    } else if (key == "output") {
+      result.output = value;
+    } else if (key == "threads") {
+      result.threads = parse_threads(value);
+    } else {
+      values.emplace_back(key, value);
+    }
+  }
+  if (result.help || result.version) return result;
+  if (result.command.empty()) {
+    throw InputError(
+        "command", "(nothing)",
+        fmt::format("one of {}; nlcwfs --help explains them", fmt::join(command_names(), ", ")));
+  }
+  if (preset) result.configuration.apply_preset(*preset);
+  for (const std::string& file : files) result.configuration.read_file(file);
+  for (const auto& [key, value] : values) {
+    result.configuration.set(key, value, "on the command line");
+  }
+  return result;
+}
+
+std::string help_text(std::string_view command) {
+  std::ostringstream text;
+  text << fmt::format(
+      "Usage: nlcwfs {} [--preset NAME] [--config FILE]... [--section.key VALUE]...\n"
+      "              [--output DIR] [--threads N] [--quiet]\n\n",
+      command.empty() ? "<command>" : command);
+  if (command.empty()) text << "Commands:\n";
+  for (const Command& known : commands()) {
+    if (command.empty() || command == known.name) {
+      text << fmt::format("  {:<10} {}\n", known.name, known.description);
+    }
+  }
+  text << '\n' << general_options() << '\n';
+  text << "A configuration file holds [section] lines and key = value lines; # starts a comment. "
+          "The command\nline overrides files, files override the preset. Lengths may be written "
+          "in nm, um, mm, cm, m or\nkm, times in us, ms, s, min or h; without a unit they are in "
+          "m and s.\n\n";
+  text << key_options();
+  return text.str();
+}
+
+}  // namespace nlcwfs

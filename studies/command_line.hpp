@@ -1,0 +1,43 @@
+#pragma once
+
+#include "studies/configuration.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nlcwfs {
+
+/// One of the program's commands.
+struct Command {
+  std::string name;
+  std::string description;  ///< one line
+};
+
+/// Every command, in the order of the help.
+const std::vector<Command>& commands();
+
+/// What the user asked for.
+struct CommandLine {
+  std::string command;  ///< one of commands(); empty only with help or version
+  Configuration configuration;
+  std::optional<std::filesystem::path> output;  ///< directory for the results
+  int threads = 0;                              ///< 0 = all cores
+  bool quiet = false;
+  bool help = false;     ///< then the configuration holds the defaults
+  bool version = false;  ///< then the configuration holds the defaults
+  bool dump_config = false;
+};
+
+/// Reads the command line and the files and the preset that it names; the command line's values
+/// override the files', later files earlier ones, files the preset, the preset the defaults.
+/// @throws InputError for what it cannot follow
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+/// Usage, commands, options and configuration keys, for a terminal of 100 columns.
+/// @param command  one of commands(), or empty for the program as a whole
+std::string help_text(std::string_view command);
+
+}  // namespace nlcwfs

@@ -1,0 +1,329 @@
+#include "studies/configuration.hpp"
+
+#include "model/input_error.hpp"
+#include "studies/text.hpp"
+#include "studies/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <system_error>
+
+#include <boost/program_options/errors.hpp>
+#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/parsers.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+namespace po = boost::program_options;
+
+/// The three measures of one thing, of which one is set.
+constexpr std::array<std::string_view, 3> seeing_measures{"seeing.d_over_r0",
+                                                          "seeing.fried_parameter", "seeing.fwhm"};
+constexpr std::string_view default_source = "by default";
+
+auto find_key(std::string_view name) {
+  return std::ranges::find(configuration_keys(), name, &ConfigurationKey::name);
+}
+
+std::size_t index_of(std::string_view name) {
+  const auto key = find_key(name);
+  assert(key != configuration_keys().end());
+  return key - configuration_keys().begin();
+}
+
+/// The part of section.key before and after the dot.
+std::pair<std::string_view, std::string_view> section_and_name(const ConfigurationKey& key) {
+  const std::string_view name = key.name;
+  const auto dot = name.find('.');
+  return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+}  // namespace
+
+bool Bounds::contain(double value) const {
+  return (least_included ? value >= least : value > least) &&
+         (greatest_included ? value <= greatest : value < greatest);
+}
+
+std::string Bounds::text() const {
+  const bool below = std::isfinite(least);
+  const bool above = std::isfinite(greatest);
+  if (below && above && least_included && greatest_included) {
+    return fmt::format("from {} to {}", least, greatest);
+  }
+  std::string text;
+  if (below) text = fmt::format("{} {}", least_included ? "at least" : "above", least);
+  if (below && above) text += " and ";
+  if (above) text += fmt::format("{} {}", greatest_included ? "at most" : "below", greatest);
+  return text;
+}
+
+std::string_view ConfigurationKey::unit_text() const {
+  switch (kind) {
+    case Kind::length:
+    case Kind::length_list:
+    case Kind::length_range:
+      return "m";
+    case Kind::time:
+      return "s";
+    default:
+      return unit;
+  }
+}
+
+std::string ConfigurationKey::allowed() const {
+  const std::string& shown = example.empty() ? default_text : example;
+  const std::string such_as = shown.empty() ? shown : fmt::format(", such as {}", shown);
+  const std::string limits = bounds.text();
+  const std::string range = limits.empty() ? limits : fmt::format(" {}", limits);
+  switch (kind) {
+    case Kind::number:
+      return fmt::format("a number{}{}{}{}", range, unit.empty() ? "" : " in ", unit, such_as);
+    case Kind::integer:
+      return fmt::format("a whole number{}", range);
+    case Kind::seed:
+      return "a whole number from 0 to 18446744073709551615";
+    case Kind::length:
+      return fmt::format("a length{} in nm, um, mm, cm, m or km{}", range, such_as);
+    case Kind::length_list:
+      return fmt::format("lengths{} in nm, um, mm, cm, m or km, separated by commas{}", range,
+                         such_as);
+    case Kind::length_range:
+      return fmt::format("min:max, lengths{} in nm, um, mm, cm, m or km with min < max{}", range,
+                         such_as);
+    case Kind::time:
+      return fmt::format("a time{} in us, ms, s, min or h{}", range, such_as);
+    case Kind::ramp:
+      return fmt::format("a number{}, or start:end{}", range, such_as);
+    case Kind::choice:
+      return fmt::format("one of {}", fmt::join(choices, ", "));
+    case Kind::text:
+      return fmt::format("one line of text without #{}", such_as);
+  }
+  assert(false);
+  return {};
+}
+
+bool ConfigurationKey::accepts(std::string_view value) const {
+  const auto within = [this](auto number) {
+    return number && bounds.contain(static_cast<double>(*number));
+  };
+  const auto both_within = [this](auto pair) {
+    return pair && bounds.contain(pair->first) && bounds.contain(pair->second);
+  };
+  switch (kind) {
+    case Kind::number:
+      return within(parse_number(value));
+    case Kind::integer:
+      return within(parse_integer(value));
+    case Kind::seed:
+      return parse_seed(value).has_value();
+    case Kind::length:
+      return within(parse_length(value));
+    case Kind::length_list: {
+      const auto list = parse_lengths(value);
+      return list && std::ranges::all_of(*list, [this](double z) { return bounds.contain(z); });
+    }
+    case Kind::length_range:
+      return both_within(parse_length_range(value));
+    case Kind::time:
+      return within(parse_time(value));
+    case Kind::ramp:
+      return both_within(parse_ramp(value));
+    case Kind::choice:
+      return std::ranges::count(choices, value) > 0;
+    case Kind::text:
+      // In a file, # starts a comment wherever it stands: a dump could not hold it.
+      return std::ranges::none_of(value, [](char c) { return c == '#' || is_control(c); });
+  }
+  assert(false);
+  return false;
+}
+
+Configuration::Configuration() {
+  for (const ConfigurationKey& key : configuration_keys()) {
+    values_.push_back({key.default_text, std::string(default_source)});
+  }
+}
+
+void Configuration::apply_preset(std::string_view name) {
+  const auto preset = std::ranges::find(presets(), name, &Preset::name);
+  if (preset == presets().end()) {
+    std::vector<std::string> names;
+    for (const Preset& known : presets()) names.push_back(known.name);
+    throw InputError("--preset", one_line(name), fmt::format("one of {}", fmt::join(names, ", ")));
+  }
+  for (const auto& [key, value] : preset->values) set(key, value, "by --preset " + preset->name);
+}
+
+void Configuration::read_file(const std::filesystem::path& path) {
+  const std::string name = one_line(path.string());
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError("--config", name, "a directory; give the path of a configuration file");
+  }
+  std::ifstream file(path);
+  if (!file) {
+    throw InputError("--config", name,
+                     fmt::format("cannot be read ({}); give the path of a configuration file",
+                                 std::generic_category().message(errno)));
+  }
+  // Boost parses one line at a time, under its section's header: it has no line numbers itself.
+  std::string header;
+  std::string line;
+  std::map<std::string, int> line_of;
+  for (int number = 1; std::getline(file, line); ++number) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors write it
+    if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    std::istringstream lines(header + '\n' + line);
+    std::vector<po::option> options;
+    try {
+      constexpr bool allow_unregistered = true;
+      options = po::parse_config_file(lines, po::options_description(), allow_unregistered).options;
+    } catch (const po::error&) {
+      throw InputError("--config", name,
+                       fmt::format("line {}, '{}', must be [section], key = value or # comment",
+                                   number, one_line(trimmed(line))));
+    }
+    if (options.empty()) {
+      if (trimmed(line).starts_with('[')) header = line;
+      continue;
+    }
+    const std::string& key = options.front().string_key;
+    const std::string& value = options.front().value.front();
+    const auto [first, is_new] = line_of.emplace(key, number);
+    if (!is_new) {
+      throw InputError(one_line(key), one_line(value),
+                       fmt::format("set twice in {}, lines {} and {}; keep one of them", name,
+                                   first->second, number));
+    }
+    set(key, value, fmt::format("in {}, line {}", name, number));
+  }
+  if (file.bad()) throw std::runtime_error(fmt::format("{}: reading failed", name));
+}
+
+void Configuration::set(std::string_view key, std::string_view value, std::string_view source) {
+  value = trimmed(value);
+  const std::string shown = one_line(value);
+  const auto row = find_key(key);
+  if (row == configuration_keys().end()) {
+    std::vector<std::string> names;
+    for (const ConfigurationKey& known : configuration_keys()) names.push_back(known.name);
+    throw InputError(
+        one_line(key), shown,
+        fmt::format("unknown key {}; did you mean {}?", source, nearest_word(key, names)));
+  }
+  if (value.empty() || !row->accepts(value)) {
+    throw InputError(key, shown, fmt::format("{} ({})", row->allowed(), source));
+  }
+  if (std::ranges::count(seeing_measures, key) > 0) {
+    for (const std::string_view other : seeing_measures) {
+      if (other == key || !is_set(other)) continue;
+      Value& rival = values_.at(index_of(other));
+      if (rival.source != default_source) {
+        throw InputError(
+            key, shown,
+            fmt::format("set only one of {} ({} is set to {} {})", fmt::join(seeing_measures, ", "),
+                        other, rival.text, rival.source));
+      }
+      rival.text.clear();
+    }
+  }
+  values_.at(index_of(key)) = {std::string(value), std::string(source)};
+}
+
+const std::string& Configuration::text_of(std::string_view key, [[maybe_unused]] Kind kind) const {
+  assert(configuration_keys().at(index_of(key)).kind == kind);
+  return value_text(key);
+}
+
+double Configuration::number(std::string_view key) const {
+  return parse_number(text_of(key, Kind::number)).value();
+}
+
+int Configuration::integer(std::string_view key) const {
+  return parse_integer(text_of(key, Kind::integer)).value();
+}
+
+std::uint64_t Configuration::seed(std::string_view key) const {
+  return parse_seed(text_of(key, Kind::seed)).value();
+}
+
+double Configuration::length(std::string_view key) const {
+  return parse_length(text_of(key, Kind::length)).value();
+}
+
+std::optional<double> Configuration::optional_length(std::string_view key) const {
+  return parse_length(text_of(key, Kind::length));
+}
+
+std::vector<double> Configuration::lengths(std::string_view key) const {
+  return parse_lengths(text_of(key, Kind::length_list)).value();
+}
+
+std::optional<std::pair<double, double>> Configuration::length_range(std::string_view key) const {
+  return parse_length_range(text_of(key, Kind::length_range));
+}
+
+std::optional<double> Configuration::optional_time(std::string_view key) const {
+  return parse_time(text_of(key, Kind::time));
+}
+
+std::pair<double, double> Configuration::ramp(std::string_view key) const {
+  return parse_ramp(text_of(key, Kind::ramp)).value();
+}
+
+const std::string& Configuration::choice(std::string_view key) const {
+  return text_of(key, Kind::choice);
+}
+
+const std::string& Configuration::text(std::string_view key) const {
+  return text_of(key, Kind::text);
+}
+
+bool Configuration::is_set(std::string_view key) const { return !value_text(key).empty(); }
+
+bool Configuration::is_default(std::string_view key) const {
+  return value_text(key) == configuration_keys().at(index_of(key)).default_text;
+}
+
+const std::string& Configuration::source(std::string_view key) const {
+  return values_.at(index_of(key)).source;
+}
+
+const std::string& Configuration::value_text(std::string_view key) const {
+  return values_.at(index_of(key)).text;
+}
+
+std::string Configuration::dump() const {
+  std::string text =
+      "# nlcwfs configuration. A length or time may have a unit; without one it is in m or s.\n";
+  std::string_view current_section;
+  for (const ConfigurationKey& key : configuration_keys()) {
+    const auto [section, name] = section_and_name(key);
+    if (section != current_section) text += fmt::format("\n[{}]\n", section);
+    current_section = section;
+    text += fmt::format("# {}\n# ", key.description);
+    if (!key.unit_text().empty()) text += fmt::format("Unit: {}. ", key.unit_text());
+    text += fmt::format("Allowed: {}. Default: {}.\n", key.allowed(),
+                        key.default_text.empty() ? "not set" : key.default_text);
+    const std::string& value = value_text(key.name);
+    text += value.empty() ? fmt::format("# {} =\n", name) : fmt::format("{} = {}\n", name, value);
+  }
+  return text;
+}
+
+bool Configuration::operator==(const Configuration& other) const {
+  return std::ranges::equal(values_, other.values_, {}, &Value::text, &Value::text);
+}
+
+}  // namespace nlcwfs

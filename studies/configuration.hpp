@@ -1,0 +1,141 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nlcwfs {
+
+/// What the text of a key stands for; the parsers are in studies/units.hpp.
+enum class Kind {
+  number,
+  integer,
+  seed,          ///< 64-bit unsigned
+  length,        ///< m
+  length_list,   ///< m, separated by commas
+  length_range,  ///< min:max, m
+  time,          ///< s
+  ramp,          ///< a number, or start:end
+  choice,        ///< one of a few words
+  text
+};
+
+/// Where a number must lie, in SI; everywhere unless said otherwise.
+struct Bounds {
+  double least = -std::numeric_limits<double>::infinity();
+  double greatest = std::numeric_limits<double>::infinity();
+  bool least_included = true;
+  bool greatest_included = true;
+
+  bool contain(double value) const;
+  /// For people: "above 0", "from 1 to 64"; empty without bounds.
+  std::string text() const;
+};
+
+/// One row of the table of configuration keys, which is also the user's documentation of them.
+struct ConfigurationKey {
+  std::string name;  ///< section.key
+  Kind kind = Kind::text;
+  std::string default_text = {};          ///< empty = not set
+  std::string description = {};           ///< what it means, one line
+  std::string unit = {};                  ///< of a number; lengths and times have m and s
+  Bounds bounds = {};                     ///< of every number in the value
+  std::vector<std::string> choices = {};  ///< the words of a choice
+  std::string example = {};               ///< for messages; the default where empty
+
+  /// What a value may be, for messages and documentation: "a length above 0, such as 0.5m".
+  std::string allowed() const;
+  /// m, s, arcsec, ...; empty for what has no unit.
+  std::string_view unit_text() const;
+  /// Whether `value` is well-formed and within bounds.
+  bool accepts(std::string_view value) const;
+};
+
+/// Every key, grouped by section.
+const std::vector<ConfigurationKey>& configuration_keys();
+
+/// Values that are set together under one name.
+struct Preset {
+  std::string name;
+  std::string description;
+  std::vector<std::pair<std::string, std::string>> values;  ///< key, value
+};
+
+const std::vector<Preset>& presets();
+
+/// A value for every key, with where it came from. A later value replaces an earlier one, so the
+/// layers are applied from the weakest to the strongest: defaults, preset, files, command line.
+/// Values are checked as they are set; what holds between keys is the physics' business, except
+/// that exactly one of seeing.d_over_r0, seeing.fried_parameter and seeing.fwhm is set at any time.
+///
+/// Two configurations are equal if their values are, wherever they came from.
+/// Asking for a key that the table does not have, or with the getter of another kind, is a caller's
+/// bug; so is asking for the value of a key that is not set, except through the optional getters.
+class Configuration {
+ public:
+  /// All defaults.
+  Configuration();
+
+  /// @throws InputError for a name that is not in presets()
+  void apply_preset(std::string_view name);
+
+  /// Reads an INI file: [section], key = value, and # starts a comment anywhere in a line.
+  /// @throws InputError naming the file and line; values before that line are already set
+  void read_file(const std::filesystem::path& path);
+
+  /// @param source  for messages: "in my.cfg, line 3", "on the command line"
+  /// @throws InputError for an unknown key, a value that is not allowed, or a second measure of the
+  ///         seeing
+  void set(std::string_view key, std::string_view value, std::string_view source);
+
+  double number(std::string_view key) const;
+  int integer(std::string_view key) const;
+  std::uint64_t seed(std::string_view key) const;
+  /// m
+  double length(std::string_view key) const;
+  /// m, or nothing where not set
+  std::optional<double> optional_length(std::string_view key) const;
+  /// m
+  std::vector<double> lengths(std::string_view key) const;
+  /// {min, max} in m, or nothing where not set
+  std::optional<std::pair<double, double>> length_range(std::string_view key) const;
+  /// s, or nothing where not set
+  std::optional<double> optional_time(std::string_view key) const;
+  /// {start, end}, equal for a single number
+  std::pair<double, double> ramp(std::string_view key) const;
+  /// One of the key's choices.
+  const std::string& choice(std::string_view key) const;
+  /// As written; empty where not set.
+  const std::string& text(std::string_view key) const;
+
+  bool is_set(std::string_view key) const;
+  /// Whether the value is the default's text, whoever set it: so a run and a run from its dump
+  /// agree.
+  bool is_default(std::string_view key) const;
+  /// "by default", "by --preset paper", "in my.cfg, line 3", "on the command line", ...
+  const std::string& source(std::string_view key) const;
+  /// The value as written, of any kind; empty where not set. For messages about values.
+  const std::string& value_text(std::string_view key) const;
+
+  /// Every key with its documentation and value, as a file for read_file that gives an equal
+  /// configuration. Keys that are not set stand in a comment.
+  std::string dump() const;
+
+  bool operator==(const Configuration& other) const;
+
+ private:
+  struct Value {
+    std::string text;
+    std::string source;
+  };
+  const std::string& text_of(std::string_view key, Kind kind) const;
+
+  std::vector<Value> values_;  // in the order of configuration_keys()
+};
+
+}  // namespace nlcwfs

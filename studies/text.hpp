@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nlcwfs {
+
+/// The text without the spaces, tabs and line ends around it.
+std::string_view trimmed(std::string_view text);
+
+/// Whether a byte is an ASCII control character, such as a tab or a line end.
+bool is_control(char character);
+
+/// The text fit for one line of a message: control characters become '?', a long text is cut, an
+/// empty one is "(nothing)".
+std::string one_line(std::string_view text);
+
+/// The word that a user most likely meant: the one with the smallest edit distance to `word`; the
+/// first among equals. A word without a dot is held against what stands behind the last dot
+/// (`diameter` means `telescope.diameter`), and an abbreviation is near what it abbreviates.
+/// @pre words is not empty
+std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
+
+}  // namespace nlcwfs

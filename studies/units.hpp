@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nlcwfs {
+
+// Text to numbers and back. Every parser reads the whole text or nothing, ignores spaces around
+// values, follows no locale and refuses what is not finite or does not fit its type.
+
+/// A number such as 0.5, -3 or 5e9.
+std::optional<double> parse_number(std::string_view text);
+
+/// A whole number without exponent or fraction.
+std::optional<int> parse_integer(std::string_view text);
+
+/// A seed: a whole number from 0 to 2^64 - 1.
+std::optional<std::uint64_t> parse_seed(std::string_view text);
+
+/// A length in m: 0.5, 532nm, 47km. Units nm, um, mm, cm, m and km; a bare number is in m.
+std::optional<double> parse_length(std::string_view text);
+
+/// A time in s: 90, 5min, 1.5h. Units us, ms, s, min and h; a bare number is in s.
+std::optional<double> parse_time(std::string_view text);
+
+/// Lengths in m, separated by commas: -47km,47km. At least one, none empty.
+std::optional<std::vector<double>> parse_lengths(std::string_view text);
+
+/// A range of lengths min:max in m, min < max.
+std::optional<std::pair<double, double>> parse_length_range(std::string_view text);
+
+/// A number, or two as start:end; {start, end}, which are equal for one number.
+std::optional<std::pair<double, double>> parse_ramp(std::string_view text);
+
+/// A length for people, with 4 significant digits: 47 km, 532 nm. parse_length reads it back.
+/// @param length  m
+std::string format_length(double length);
+
+}  // namespace nlcwfs
