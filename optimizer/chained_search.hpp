@@ -1,0 +1,70 @@
+#pragma once
+
+#include "optimizer/evaluator.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nlcwfs {
+
+/// The two algorithms of a chained search; either may be absent.
+struct SearchMethod {
+  std::string global;  ///< finds the region; empty = start from the starting points
+  std::string local;   ///< refines; empty = the global algorithm goes on instead
+};
+
+/// The method that a name stands for: `GLOBAL+LOCAL` such as `direct_l+sbplx`, one algorithm alone,
+/// or `auto`, which is direct_l+sbplx (see nlopt_scope for the algorithms).
+/// @throws std::invalid_argument for an unknown name, for an algorithm in the wrong place, and for
+///   an algorithm that cannot search that few variables
+SearchMethod search_method(std::string_view optimizer, int variable_count);
+
+/// What to search with, and from where.
+struct SearchOptions {
+  std::string optimizer = "auto";  ///< see search_method
+  std::uint64_t seed = 1;          ///< of algorithms that draw random numbers
+  std::vector<SearchPoint>
+      starts;                   ///< designs to begin with; none = the centre of the first choice
+  EvaluatorOptions evaluation;  ///< budget, time limit, stopping, observer
+};
+
+/// A part of a search.
+struct SearchStage {
+  std::string name;     ///< `starts`, `choices` (every choice at the best point), or the algorithm
+  int evaluations = 0;  ///< new ones
+};
+
+/// What a search found.
+struct SearchResult {
+  /// The best design; nothing where the search was stopped before its first evaluation.
+  std::optional<EvaluatedDesign> best;
+  /// The best designs that differ (see Evaluator::best_designs), at most 5, best first.
+  std::vector<EvaluatedDesign> best_designs;
+  Termination termination = Termination::stop_requested;
+  int evaluations = 0;
+  int failures = 0;                 ///< evaluations without a cost
+  int cache_hits = 0;               ///< designs asked for again, which cost nothing
+  std::vector<SearchStage> stages;  ///< in order; their evaluations sum to `evaluations`
+};
+
+/// Searches a problem's choices and continuous variables within a budget:
+/// 1. the starting points;
+/// 2. a global search over the continuous variables at the best start's choice;
+/// 3. all choices at the best point so far;
+/// 4. a local search in each of the best few choices, ever longer in ever fewer of them (successive
+///    halving, Jamieson & Talwalkar 2016);
+/// then 2 to 4 again from the best design, until such a round improves nothing or a limit is
+/// reached.
+///
+/// Runs in the calling thread; equal arguments evaluate the same designs in the same order, unless
+/// a time limit comes into sight of the search (stages shrink to fit into it).
+///
+/// @throws std::invalid_argument see search_method
+/// @throws SearchFailed where no design has a cost, or too many in a row have none
+/// @throws whatever the observer throws
+SearchResult search(Problem& problem, const SearchOptions& options);
+
+}  // namespace nlcwfs

@@ -1,0 +1,246 @@
+#pragma once
+
+#include "optimizer/problem.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+#include <fmt/format.h>
+
+namespace nlcwfs {
+
+/// The exact digits of a point: every point is its own design.
+inline std::string exact_key(const SearchPoint& point) {
+  std::string key = fmt::format("{}", point.choice);
+  for (const double value : point.x) key += fmt::format(" {}", value);
+  return key;
+}
+
+/// A problem with a known optimum, which counts how often its cost was computed.
+struct TestProblem : Problem {
+  using Cost = std::function<double(int choice, const Eigen::VectorXd& x)>;
+
+  TestProblem(std::string problem_name, std::vector<Variable> box, Cost function, double lowest)
+      : name(std::move(problem_name)),
+        box_(std::move(box)),
+        function_(std::move(function)),
+        minimum(lowest) {}
+
+  std::vector<Variable> variables() const override { return box_; }
+  int choice_count() const override { return choices; }
+  std::string key(const SearchPoint& point) const override { return key_of(point); }
+  double cost(const SearchPoint& point) override {
+    ++calls;
+    return function_(point.choice, point.x);
+  }
+
+  std::string name;
+  std::vector<Variable> box_;
+  Cost function_;
+  double minimum;  ///< the lowest cost; infinity where every evaluation fails
+  int choices = 1;
+  std::function<std::string(const SearchPoint&)> key_of = exact_key;
+  int calls = 0;
+};
+
+inline std::vector<Variable> cube(int variables, double lower, double upper) {
+  std::vector<Variable> box;
+  for (int i = 0; i < variables; ++i) box.push_back({fmt::format("x{}", i), lower, upper});
+  return box;
+}
+
+/// A smooth bowl over the logarithms of two distances, ten times as steep along one diagonal as
+/// along the other; lowest, 2, at (10^4.4, 10^5.1).
+inline double rotated_bowl_cost(const Eigen::VectorXd& x) {
+  const double along = (x[0] - 4.4) + (x[1] - 5.1);
+  const double across = (x[0] - 4.4) - (x[1] - 5.1);
+  return 2.0 + along * along + 10.0 * across * across;
+}
+
+inline TestProblem rotated_bowl() {
+  return {"rotated_bowl",
+          {{"log_z_near", 3.5, 5.0}, {"log_z_far", 4.5, 6.0}},
+          [](int, const Eigen::VectorXd& x) { return rotated_bowl_cost(x); },
+          2.0};
+}
+
+/// One variable, lowest at 1/3, where the curvature is discontinuous.
+inline TestProblem one_variable() {
+  return {"one_variable", cube(1, -1.0, 1.0),
+          [](int, const Eigen::VectorXd& x) {
+            return std::abs(x[0] - 1.0 / 3.0) * (x[0] < 1.0 / 3.0 ? 1.0 : 2.0);
+          },
+          0.0};
+}
+
+/// Branin's function: three equal minima (Dixon & Szego 1978).
+inline TestProblem branin() {
+  return {"branin",
+          {{"x0", -5.0, 10.0}, {"x1", 0.0, 15.0}},
+          [](int, const Eigen::VectorXd& x) {
+            constexpr double pi = std::numbers::pi;
+            const double valley =
+                x[1] - 5.1 / (4.0 * pi * pi) * x[0] * x[0] + 5.0 / pi * x[0] - 6.0;
+            return valley * valley + 10.0 * (1.0 - 1.0 / (8.0 * pi)) * std::cos(x[0]) + 10.0;
+          },
+          0.39788735772973816};
+}
+
+/// Rastrigin's function with few, shallow local minima, lowest off the centre of the box.
+inline TestProblem rastrigin() {
+  return {"rastrigin", cube(2, -2.0, 2.0),
+          [](int, const Eigen::VectorXd& x) {
+            double sum = 0.0;
+            for (const double value : x) {
+              const double offset = value - 0.37;
+              sum += offset * offset + 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * offset));
+            }
+            return sum;
+          },
+          0.0};
+}
+
+/// Levy's function: a long valley with ripples, lowest at (1, 1, ...) (Laguna & Marti 2005).
+inline TestProblem levy(int variables) {
+  return {fmt::format("levy_{}", variables), cube(variables, -10.0, 10.0),
+          [](int, const Eigen::VectorXd& x) {
+            constexpr double pi = std::numbers::pi;
+            const auto square = [](double value) { return value * value; };
+            const Eigen::ArrayXd w = 1.0 + (x.array() - 1.0) / 4.0;
+            const Eigen::Index last = w.size() - 1;
+            double sum = square(std::sin(pi * w[0])) +
+                         square(w[last] - 1.0) * (1.0 + square(std::sin(2.0 * pi * w[last])));
+            for (Eigen::Index i = 0; i < last; ++i) {
+              sum += square(w[i] - 1.0) * (1.0 + 10.0 * square(std::sin(pi * w[i] + 1.0)));
+            }
+            return sum;
+          },
+          0.0};
+}
+
+/// A bowl in four logarithms of distances, coupled so that its axes differ by a factor of 30.
+inline TestProblem coupled_bowl() {
+  return {"coupled_bowl", cube(4, 3.5, 5.5),
+          [](int, const Eigen::VectorXd& x) {
+            const Eigen::Vector4d offset = x - Eigen::Vector4d(4.1, 4.6, 5.0, 4.3);
+            const double sum = offset.sum();
+            return 3.0 + offset.squaredNorm() + 7.0 * sum * sum;
+          },
+          3.0};
+}
+
+/// Hartmann's six-variable function (Dixon & Szego 1978), its minimum to 5 digits.
+inline TestProblem hartmann() {
+  return {"hartmann", cube(6, 0.0, 1.0),
+          [](int, const Eigen::VectorXd& x) {
+            static const Eigen::Matrix<double, 4, 6> scale{{10.0, 3.0, 17.0, 3.5, 1.7, 8.0},
+                                                           {0.05, 10.0, 17.0, 0.1, 8.0, 14.0},
+                                                           {3.0, 3.5, 1.7, 10.0, 17.0, 8.0},
+                                                           {17.0, 8.0, 0.05, 10.0, 0.1, 14.0}};
+            static const Eigen::Matrix<double, 4, 6> centre{
+                {0.1312, 0.1696, 0.5569, 0.0124, 0.8283, 0.5886},
+                {0.2329, 0.4135, 0.8307, 0.3736, 0.1004, 0.9991},
+                {0.2348, 0.1451, 0.3522, 0.2883, 0.3047, 0.6650},
+                {0.4047, 0.8828, 0.8732, 0.5743, 0.1091, 0.0381}};
+            static const Eigen::Vector4d weight(1.0, 1.2, 3.0, 3.2);
+            double sum = 0.0;
+            for (int i = 0; i < 4; ++i) {
+              const Eigen::VectorXd offset = x - centre.row(i).transpose();
+              sum += weight[i] * std::exp(-scale.row(i).dot(offset.cwiseAbs2()));
+            }
+            return -sum;
+          },
+          -3.32237};
+}
+
+/// The bowl in steps with a fine ripple on top, as counts of loops over few screens make it.
+inline TestProblem plateau() {
+  return {"plateau",
+          {{"x0", 3.5, 5.0}, {"x1", 4.5, 6.0}},
+          [](int, const Eigen::VectorXd& x) {
+            const double ripple = 0.01 * std::sin(4000.0 * x[0]) * std::sin(3000.0 * x[1]);
+            return std::floor(10.0 * rotated_bowl_cost(x)) / 10.0 + ripple;
+          },
+          1.99};
+}
+
+/// The same cost everywhere.
+inline TestProblem constant() {
+  return {"constant", cube(2, 0.0, 1.0), [](int, const Eigen::VectorXd&) { return 0.0; }, 0.0};
+}
+
+/// 24 choices, each a bowl with its own offset and its lowest point shifted from the others' by up
+/// to `shift` of the box. Offsets are up to 3 above the best choice's, which is drawn too.
+inline TestProblem choices(std::uint64_t seed = 1, double shift = 0.15) {
+  constexpr int count = 24;
+  boost::random::mt19937_64 generator(seed);
+  boost::random::uniform_real_distribution<double> uniform(0.0, 1.0);
+  Eigen::Matrix2Xd centres(2, count);
+  Eigen::VectorXd offsets(count);
+  const Eigen::Vector2d common(0.3 + 0.4 * uniform(generator), 0.3 + 0.4 * uniform(generator));
+  for (int choice = 0; choice < count; ++choice) {
+    for (int i = 0; i < 2; ++i) {
+      centres(i, choice) = common[i] + shift * (2.0 * uniform(generator) - 1.0);
+    }
+    offsets[choice] = 5.0 + 3.0 * uniform(generator);
+  }
+  TestProblem problem{"choices", cube(2, 0.0, 1.0),
+                      [=](int choice, const Eigen::VectorXd& x) {
+                        const Eigen::Vector2d offset = x - centres.col(choice);
+                        const double sum = offset.sum();
+                        return offsets[choice] + 10.0 * offset.squaredNorm() + 40.0 * sum * sum;
+                      },
+                      offsets.minCoeff()};
+  problem.choices = count;
+  return problem;
+}
+
+/// The bowl without an answer (NaN, infinities) in a disc round the centre of the box that nearly
+/// touches the lowest point.
+inline TestProblem nan_region() {
+  TestProblem problem = rotated_bowl();
+  problem.name = "nan_region";
+  problem.function_ = [](int, const Eigen::VectorXd& x) {
+    if (std::hypot(x[0] - 4.25, x[1] - 5.25) < 0.2) {
+      return x[0] > 4.25 ? std::numeric_limits<double>::infinity()
+                         : std::numeric_limits<double>::quiet_NaN();
+    }
+    return rotated_bowl_cost(x);
+  };
+  return problem;
+}
+
+/// The bowl, throwing beside a line that passes close to its lowest point.
+inline TestProblem throwing_region() {
+  TestProblem problem = rotated_bowl();
+  problem.name = "throwing_region";
+  problem.function_ = [](int, const Eigen::VectorXd& x) {
+    if (x[1] < 5.05) throw std::runtime_error("the planes are too close");
+    return rotated_bowl_cost(x);
+  };
+  return problem;
+}
+
+/// No design has a cost.
+inline TestProblem all_failing() {
+  return {"all_failing", cube(2, 0.0, 1.0),
+          [](int, const Eigen::VectorXd&) -> double { throw std::runtime_error("no light"); },
+          std::numeric_limits<double>::infinity()};
+}
+
+/// The problems that have an optimum, for every backend.
+inline std::vector<TestProblem> solvable_problems() {
+  return {one_variable(), rotated_bowl(), branin(),   rastrigin(), levy(4),      coupled_bowl(),
+          hartmann(),     plateau(),      constant(), choices(),   nan_region(), throwing_region()};
+}
+
+}  // namespace nlcwfs
