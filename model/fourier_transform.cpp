@@ -9,7 +9,7 @@
 namespace nlcwfs {
 namespace {
 
-/// The FFTW planner is not thread-safe, and its lock must be one for all precisions' callers.
+/// The FFTW planner is not thread-safe.
 std::mutex& planner_lock() {
   static std::mutex lock;
   return lock;
@@ -23,7 +23,7 @@ struct Fftw<double> {
   using Plan = fftw_plan;
   using Complex = fftw_complex;
   static Plan plan(int length, Complex* line, int sign) {
-    return fftw_plan_dft_1d(length, line, line, sign, FFTW_ESTIMATE | FFTW_UNALIGNED);
+    return fftw_plan_dft_1d(length, line, line, sign, FFTW_ESTIMATE);
   }
   static void execute(Plan plan, Complex* line) { fftw_execute_dft(plan, line, line); }
   static void destroy(Plan plan) { fftw_destroy_plan(plan); }
@@ -34,7 +34,7 @@ struct Fftw<float> {
   using Plan = fftwf_plan;
   using Complex = fftwf_complex;
   static Plan plan(int length, Complex* line, int sign) {
-    return fftwf_plan_dft_1d(length, line, line, sign, FFTW_ESTIMATE | FFTW_UNALIGNED);
+    return fftwf_plan_dft_1d(length, line, line, sign, FFTW_ESTIMATE);
   }
   static void execute(Plan plan, Complex* line) { fftwf_execute_dft(plan, line, line); }
   static void destroy(Plan plan) { fftwf_destroy_plan(plan); }

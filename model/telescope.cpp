@@ -1,9 +1,9 @@
 #include "model/telescope.hpp"
 
+#include "model/input_error.hpp"
+
 #include <cassert>
 #include <cmath>
-
-#include "model/input_error.hpp"
 
 namespace nlcwfs {
 

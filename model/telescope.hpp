@@ -6,9 +6,9 @@ namespace nlcwfs {
 
 /// The telescope whose beam the sensor sees, and the wavelength that it works at.
 struct Telescope {
-  double diameter = 0.5;               ///< pupil diameter D, m
-  double wavelength = 532e-9;          ///< m
-  double central_obscuration = 0.0;    ///< obscured diameter over D, 0 <= eps < 1
+  double diameter = 0.5;                           ///< pupil diameter D, m
+  double wavelength = 532e-9;                      ///< m
+  double central_obscuration = 0.0;                ///< obscured diameter over D, 0 <= eps < 1
   std::optional<double> relay_beam_diameter = {};  ///< beam diameter d behind a relay, m
 
   /// @throws InputError where a value is not physical

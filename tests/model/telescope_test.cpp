@@ -1,12 +1,12 @@
 #include "model/telescope.hpp"
 
+#include "model/input_error.hpp"
+
 #include <cmath>
+#include <gmock/gmock.h>
 #include <limits>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "model/input_error.hpp"
 
 namespace nlcwfs {
 namespace {

@@ -1,0 +1,52 @@
+#include "model/detector.hpp"
+
+#include "model/grid_width.hpp"
+#include "model/input_error.hpp"
+#include "model/pupil.hpp"
+
+#include <cmath>
+
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/poisson_distribution.hpp>
+
+namespace nlcwfs {
+
+int Detector::width() const { return grid_width(window, pupil_pixels); }
+
+void Detector::validate() const {
+  if (pupil_pixels < 4 || pupil_pixels > max_grid_width || pupil_pixels % 2 != 0) {
+    throw InputError("detector.pupil_pixels", pupil_pixels,
+                     fmt::format("an even number from 4 to {}", max_grid_width));
+  }
+  validate_grid_window("detector.window", window, "detector.pupil_pixels", pupil_pixels);
+  if (!(photons >= 0.0) || !std::isfinite(photons)) {
+    throw InputError("detector.photons", photons, "at least 0 (0 = no photon noise)");
+  }
+  if (!(read_noise >= 0.0) || !std::isfinite(read_noise)) {
+    throw InputError("detector.read_noise", read_noise, "at least 0 electrons");
+  }
+  if (read_noise > 0.0 && photons == 0.0) {
+    throw InputError("detector.read_noise", read_noise,
+                     "needs detector.photons above 0, which says how many electrons the light is");
+  }
+}
+
+Image<double> integrate_pixels(const Field<double>& field, int samples_per_pixel) {
+  return block_average(field.abs2(), samples_per_pixel);
+}
+
+void add_noise(Image<double>& image, double photons_per_unit, double read_noise,
+               RandomStream& stream) {
+  boost::random::normal_distribution<double> normal(0.0, 1.0);
+  for (double& intensity : image.reshaped<Eigen::RowMajor>()) {
+    const double expected = intensity * photons_per_unit;
+    double electrons = 0.0;
+    if (expected > 0.0) {
+      electrons = double(boost::random::poisson_distribution<long, double>(expected)(stream));
+    }
+    if (read_noise > 0.0) electrons += read_noise * normal(stream);
+    intensity = electrons / photons_per_unit;
+  }
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "model/array.hpp"
+#include "model/fourier_transform.hpp"
+
+#include <complex>
+
+namespace nlcwfs {
+
+/// The Fresnel transfer function along one axis, exp(-i pi lambda z f^2), at the frequencies of a
+/// discrete Fourier transform (f = 0, 1, ... , -1 in units of 1 / (samples * pitch)). In two
+/// dimensions it is the product of both axes'; the factor exp(ikz) is left out.
+/// Source: Goodman, Introduction to Fourier Optics, eq. 4-21.
+/// @param samples     grid samples along the axis
+/// @param pitch       sample spacing, m
+/// @param wavelength  lambda, m
+/// @param distance    z, m; negative goes backwards
+Eigen::ArrayXcd fresnel_transfer_function(int samples, double pitch, double wavelength,
+                                          double distance);
+
+/// Half-open range of the rows of a grid.
+struct RowRange {
+  Eigen::Index first;
+  Eigen::Index last;
+};
+
+/// Fresnel propagation on a periodic grid: what leaves on one side comes back on the other. This is
+/// the reconstructor's propagation; see WrapFreePropagator for the light itself.
+///
+/// Separable: the rows are transformed, then each column is transformed, filtered and transformed
+/// back while it is in cache, then the rows are transformed back.
+template <class Real>
+class FresnelPropagator {
+ public:
+  /// @param samples     samples along each side of the square grid
+  /// @param pitch       sample spacing, m
+  /// @param wavelength  m
+  FresnelPropagator(int samples, double pitch, double wavelength);
+
+  int samples() const { return transform_.length(); }
+
+  /// Propagates `field` (samples x samples, or a padded_field) by `distance` (m, signed) in place.
+  /// A distance of 0 is exactly the identity.
+  /// @param lit     rows outside of it are known to be 0 before
+  /// @param wanted  rows outside of it are left undefined
+  void propagate(Field<Real>& field, double distance, RowRange lit, RowRange wanted) const;
+  void propagate(Field<Real>& field, double distance) const;
+
+ private:
+  LineTransform<Real> transform_;
+  double pitch_;
+  double wavelength_;
+};
+
+}  // namespace nlcwfs

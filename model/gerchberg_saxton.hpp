@@ -1,0 +1,58 @@
+#pragma once
+
+#include "model/array.hpp"
+#include "model/fresnel_propagator.hpp"
+#include "model/phase_unwrapping.hpp"
+#include "model/pupil.hpp"
+#include "model/sensor_design.hpp"
+#include "model/telescope.hpp"
+
+#include <span>
+#include <vector>
+
+namespace nlcwfs {
+
+/// What a reconstruction ended with. Starts as a failure.
+struct Reconstruction {
+  Field<double> pupil_field;      ///< n x n samples across the diameter, 0 outside the pupil
+  bool converged = false;         ///< the stopping rule was met within max_loops
+  int loops = 0;                  ///< loops that were run
+  double fractional_loops = 0.0;  ///< loop count at which the change crosses the tolerance,
+                                  ///< interpolated in log(change); max_loops where it does not
+  int fft_count = 0;              ///< two-dimensional transforms of the reconstruction grid
+  std::vector<double> changes;    ///< the stopping rule's change after each loop, m
+};
+
+/// Multi-plane Gerchberg-Saxton loop: pupil -> P1 -> P2 -> ... -> PN -> pupil in visiting order. At
+/// each plane the amplitude becomes the measured one, its phase is kept; in the pupil everything
+/// outside the aperture becomes 0 and the amplitude inside is kept.
+/// Source: Guyon 2010 (PASP 122, 49); Letchev et al. 2022, section 2.3.
+///
+/// The amplitude step is a relaxed projection: with A the measured and a the field's amplitude over
+/// a detector pixel (the root of its mean intensity, of several samples where the grid is finer
+/// than the pixels), the field there is scaled by (A + beta (A - a)) / a.
+template <class Real>
+class GerchbergSaxton {
+ public:
+  GerchbergSaxton(const Telescope& telescope, const SensorDesign& design);
+
+  /// @param images  one per plane in visiting order, detector width x width, mean intensity per
+  ///                pixel in units of the unaberrated pupil's; below 0 counts as 0
+  Reconstruction reconstruct(std::span<const Image<double>> images) const;
+
+  /// The pupil as sampled by the reconstruction, pupil_pixels x oversampling samples across.
+  const PupilMask& mask() const { return mask_; }
+
+ private:
+  Field<double> first_estimate(std::span<const Image<double>> images) const;
+  void replace_amplitude(Field<Real>& field, const Image<Real>& amplitude, Real relaxation) const;
+
+  SensorDesign design_;
+  double wavelength_;
+  double pitch_;
+  PupilMask mask_;
+  FresnelPropagator<Real> propagator_;
+  PhaseUnwrapper unwrapper_;
+};
+
+}  // namespace nlcwfs

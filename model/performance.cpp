@@ -1,0 +1,46 @@
+#include "model/performance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace nlcwfs {
+
+double Performance::converged_fraction() const {
+  return mean_of([](const ScreenPerformance& screen) { return screen.converged ? 1.0 : 0.0; }).mean;
+}
+
+std::vector<double> Performance::captured_energy() const {
+  std::vector<double> energy;
+  for (std::size_t plane = 0; plane < screens.front().captured_energy.size(); ++plane) {
+    energy.push_back(mean_of([&](const ScreenPerformance& screen) {
+                       return screen.captured_energy[plane];
+                     }).mean);
+  }
+  return energy;
+}
+
+std::span<const PerformanceMetric> performance_metrics() {
+  using Screen = const ScreenPerformance&;
+  static constexpr double nm = 1e-9;
+  static constexpr std::array<PerformanceMetric, 8> metrics{{
+      {"residual_wfe_nm", [](Screen screen) { return screen.wavefront.residual_wfe / nm; }},
+      {"wrapped_wfe_nm", [](Screen screen) { return screen.wavefront.wrapped_wfe / nm; }},
+      {"total_wfe_nm", [](Screen screen) { return screen.wavefront.total_wfe / nm; }},
+      {"field_strehl", [](Screen screen) { return screen.wavefront.field_strehl; }},
+      {"loops", [](Screen screen) { return double(screen.loops); }},
+      {"fractional_loops", [](Screen screen) { return screen.fractional_loops; }},
+      {"seconds", [](Screen screen) { return screen.seconds; }},
+      {"fft_count", [](Screen screen) { return double(screen.fft_count); }},
+  }};
+  return metrics;
+}
+
+PerformanceMetric performance_metric(std::string_view name) {
+  const auto metrics = performance_metrics();
+  const auto found = std::ranges::find(metrics, name, &PerformanceMetric::name);
+  assert(found != metrics.end());
+  return *found;
+}
+
+}  // namespace nlcwfs

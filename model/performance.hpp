@@ -1,0 +1,60 @@
+#pragma once
+
+#include "model/statistics.hpp"
+#include "model/wavefront_metrics.hpp"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace nlcwfs {
+
+/// How a design did on one wavefront.
+struct ScreenPerformance {
+  WavefrontMetrics wavefront;
+  bool converged = false;
+  int loops = 0;
+  double fractional_loops = 0.0;
+  int fft_count = 0;
+  double seconds = 0.0;                 ///< measured time of the reconstruction
+  std::vector<double> captured_energy;  ///< share of the pupil's light in the window, per plane
+};
+
+/// How a design did on a set of wavefronts.
+struct Performance {
+  std::vector<ScreenPerformance> screens;
+
+  /// `metric(screen)` of every screen.
+  template <class Metric>
+  std::vector<double> samples_of(const Metric& metric) const {
+    std::vector<double> samples;
+    for (const ScreenPerformance& screen : screens) samples.push_back(metric(screen));
+    return samples;
+  }
+  /// Mean and standard error over the screens of `metric(screen)`.
+  template <class Metric>
+  MeanAndError mean_of(const Metric& metric) const {
+    return mean_and_standard_error(samples_of(metric));
+  }
+
+  double converged_fraction() const;
+  std::vector<double> captured_energy() const;  ///< mean over the screens, per plane
+};
+
+/// A figure of merit as users see it: its name ends with its unit.
+struct PerformanceMetric {
+  std::string_view name;
+  double (*value)(const ScreenPerformance&);
+
+  double operator()(const ScreenPerformance& screen) const { return value(screen); }
+};
+
+/// Every metric that has a mean and a standard error over the screens: residual_wfe_nm,
+/// wrapped_wfe_nm, total_wfe_nm, field_strehl, loops, fractional_loops, seconds, fft_count.
+std::span<const PerformanceMetric> performance_metrics();
+
+/// One of performance_metrics() by its name.
+/// @pre there is such a metric
+PerformanceMetric performance_metric(std::string_view name);
+
+}  // namespace nlcwfs

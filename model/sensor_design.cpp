@@ -1,0 +1,63 @@
+#include "model/sensor_design.hpp"
+
+#include "model/grid_width.hpp"
+#include "model/input_error.hpp"
+
+#include <cmath>
+
+namespace nlcwfs {
+namespace {
+
+/// Beyond this the plane is in the far field, where a sensor of pupil-sized windows sees nothing.
+constexpr double min_fresnel_number = 0.1;
+
+}  // namespace
+
+double ReconstructionOptions::relaxation(int loop) const {
+  if (max_loops == 1) return relaxation_start;
+  return std::lerp(relaxation_start, relaxation_end, double(loop - 1) / (max_loops - 1));
+}
+
+int SensorDesign::grid_width() const {
+  return nlcwfs::grid_width(reconstruction.window, pupil_samples());
+}
+
+void SensorDesign::validate(const Telescope& telescope) const {
+  if (planes.size() < 2) {
+    throw InputError("sensor.planes", fmt::format("{} planes", planes.size()),
+                     "at least 2 distances, such as -47km,47km");
+  }
+  const double farthest = std::abs(distance_at_fresnel_number(telescope, min_fresnel_number));
+  for (const double plane : planes) {
+    if (!(std::abs(plane) <= farthest)) {
+      throw InputError("sensor.planes", plane,
+                       fmt::format("distances within +-{:.6g} m, where the Fresnel number is {}",
+                                   farthest, min_fresnel_number));
+    }
+  }
+  detector.validate();
+  if (reconstruction.max_loops < 1 || reconstruction.max_loops > 10000) {
+    throw InputError("reconstruction.max_loops", reconstruction.max_loops, "from 1 to 10000");
+  }
+  if (!(reconstruction.tolerance >= 0.0) || !std::isfinite(reconstruction.tolerance)) {
+    throw InputError("reconstruction.tolerance", reconstruction.tolerance,
+                     "a length of at least 0, such as 1nm");
+  }
+  for (const double beta : {reconstruction.relaxation_start, reconstruction.relaxation_end}) {
+    if (!(std::abs(beta) < 1.0)) {
+      throw InputError("reconstruction.relaxation", beta,
+                       "above -1 and below 1, or start:end of these");
+    }
+  }
+  if (reconstruction.oversampling < 1 || reconstruction.oversampling > 16) {
+    throw InputError("reconstruction.oversampling", reconstruction.oversampling, "from 1 to 16");
+  }
+  validate_grid_window("reconstruction.window", reconstruction.window,
+                       "detector.pupil_pixels x reconstruction.oversampling", pupil_samples());
+  if (grid_width() < detector.width() * reconstruction.oversampling) {
+    throw InputError("reconstruction.window", reconstruction.window,
+                     fmt::format("at least detector.window, which is {:g}", detector.window));
+  }
+}
+
+}  // namespace nlcwfs

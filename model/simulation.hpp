@@ -1,0 +1,60 @@
+#pragma once
+
+#include "model/array.hpp"
+#include "model/performance.hpp"
+#include "model/pupil.hpp"
+#include "model/sensor_design.hpp"
+#include "model/telescope.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace nlcwfs {
+
+/// Where the sensor's data come from.
+enum class TruthModel {
+  extended,  ///< light on an infinite plane, sampled finer than the detector: wrap-free
+  matched    ///< the reconstructor's own periodic grid, all of it measured (the paper's way)
+};
+
+/// The precision of the reconstruction; the data are always made in double precision.
+enum class Precision { double_precision, single_precision };
+
+/// How the data are made and reconstructed.
+struct SimulationOptions {
+  TruthModel truth = TruthModel::extended;
+  Precision precision = Precision::double_precision;
+  std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
+};
+
+/// Judges sensor designs on a fixed set of wavefronts: pupil field -> propagation to each plane ->
+/// detector images -> Gerchberg-Saxton reconstruction -> unwrapping -> metrics.
+///
+/// Every design sees the same wavefronts and the same streams of noise (common random numbers).
+/// Screens run in parallel; the result does not depend on the number of threads.
+class Simulation {
+ public:
+  /// @param screens  true phases, all m x m samples across the diameter, rad
+  /// @throws InputError where there is no screen
+  Simulation(const Telescope& telescope, std::vector<PhaseScreen> screens,
+             const SimulationOptions& options);
+
+  /// @throws InputError where the design is not valid or does not fit the truth's samples
+  Performance evaluate(const SensorDesign& design) const;
+
+  /// The design as it is simulated: in matched mode the detector is as wide as the reconstruction
+  /// grid.
+  /// @throws InputError as evaluate does
+  SensorDesign checked(SensorDesign design) const;
+
+  const Telescope& telescope() const { return telescope_; }
+  int screen_count() const { return static_cast<int>(screens_.size()); }
+
+ private:
+  Telescope telescope_;
+  std::vector<PhaseScreen> screens_;
+  SimulationOptions options_;
+  PupilMask mask_;
+};
+
+}  // namespace nlcwfs

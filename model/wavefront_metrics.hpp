@@ -1,0 +1,47 @@
+#pragma once
+
+#include "model/array.hpp"
+#include "model/pupil.hpp"
+
+namespace nlcwfs {
+
+/// How well a reconstruction matches the true wavefront; lengths in m of optical path.
+struct WavefrontMetrics {
+  double residual_wfe = 0.0;  ///< RMS over the pupil of (unwrapped - true phase), piston removed
+  double wrapped_wfe = 0.0;   ///< the same of arg(E_rec conj(E_true)): blind to 2 pi errors
+  double total_wfe = 0.0;  ///< residual at the truth's full resolution: what the reconstruction's
+                           ///< samples cannot resolve counts too
+  double field_strehl = 0.0;  ///< field-estimated Strehl ratio, see field_estimated_strehl()
+};
+
+/// RMS over the mask of `phase` (rad), mean removed.
+double piston_free_rms(const Image<double>& phase, const PupilMask& mask);
+
+/// RMS over the mask of arg(field conj(reference)) (rad), less the argument of that product's mean:
+/// the piston, found without unwrapping.
+double wrapped_phase_rms(const Field<double>& field, const Field<double>& reference,
+                         const PupilMask& mask);
+
+/// S_F = |sum E_rec conj(E_true)|^2 / (sum |E_rec|^2 sum |E_true|^2) over the mask, 0 to 1.
+/// Source: Banet et al. 2017, as used by Letchev et al. 2022, section 4.
+double field_estimated_strehl(const Field<double>& field, const Field<double>& truth,
+                              const PupilMask& mask);
+
+/// Brings a phase known over `mask` to another sampling of the same diameter: averaged over blocks
+/// where that is coarser, interpolated linearly between samples of the mask where it is finer.
+/// @param samples  wanted samples a side, a multiple or a divisor of the phase's
+/// @return samples x samples; 0 where no sample of the mask is near
+Image<double> resample_over_mask(const Image<double>& phase, const PupilMask& mask, int samples);
+
+/// Compares a reconstruction with the truth.
+/// @param field           reconstructed pupil field, n x n
+/// @param unwrapped       its unwrapped phase, rad
+/// @param mask            the reconstruction's pupil
+/// @param truth           true phase, m x m samples, rad; m is a multiple or a divisor of n
+/// @param truth_mask      the truth's pupil
+/// @param wavelength      m
+WavefrontMetrics measure_wavefront(const Field<double>& field, const Image<double>& unwrapped,
+                                   const PupilMask& mask, const PhaseScreen& truth,
+                                   const PupilMask& truth_mask, double wavelength);
+
+}  // namespace nlcwfs

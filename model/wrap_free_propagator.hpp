@@ -1,0 +1,49 @@
+#pragma once
+
+#include "model/array.hpp"
+#include "model/fourier_transform.hpp"
+
+namespace nlcwfs {
+
+/// Fresnel propagation of the light in the pupil to a window around the axis, on an infinite plane:
+/// nothing wraps round. This makes the sensor's data, so that a periodic reconstructor does not
+/// meet its own errors again (the inverse crime).
+///
+/// The pupil's samples stand for the field that is band-limited to their Nyquist frequency. Its
+/// propagation is a convolution with the band-limited Fresnel kernel
+///   p(x) = integral over |f| < 1/(2 pitch) of exp(-i pi lambda z f^2) exp(2 pi i f x) df  * pitch,
+/// separable in x and y, which holds at every distance, z = 0 included. The kernel is evaluated by
+/// one long line transform, whose period is so long that its own wrapping is negligible (see
+/// `period_margin`); the convolution of pupil and window then needs only
+/// pupil + window samples per axis to be exact.
+class WrapFreePropagator {
+ public:
+  /// @param pupil_samples   samples across the pupil's square
+  /// @param window_samples  samples across the window, of the same parity as pupil_samples, so that
+  ///                        both grids share their sample positions
+  /// @param pitch           sample spacing of both, m
+  /// @param wavelength      m
+  /// @param period_margin   the kernel's period over the largest distance from the axis that
+  ///                        band-limited light reaches, lambda |z| / (2 pitch) + half the grid
+  WrapFreePropagator(int pupil_samples, int window_samples, double pitch, double wavelength,
+                     double period_margin = 64.0);
+
+  /// The kernel's discrete transform along one axis for a plane at `distance` (m, signed).
+  Eigen::ArrayXcd transfer_function(double distance) const;
+
+  /// The transform of a pupil field (pupil_samples x pupil_samples), shared by all planes.
+  Field<double> spectrum(const Field<double>& pupil) const;
+
+  /// The field in the window (window_samples x window_samples) of one plane.
+  Field<double> field(const Field<double>& spectrum, const Eigen::ArrayXcd& transfer) const;
+
+ private:
+  int pupil_samples_;
+  int window_samples_;
+  double pitch_;
+  double wavelength_;
+  double period_margin_;
+  LineTransform<double> transform_;
+};
+
+}  // namespace nlcwfs
