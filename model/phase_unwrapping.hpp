@@ -23,10 +23,10 @@ enum class UnwrappingMethod {
 /// If differences are normal with variance v, the log odds that the nearest multiple of 2 pi is the
 /// right one are 2 pi (pi - |d|) / v (after Carballo & Fieguth 2000, IEEE TGRS 38, 2192); v is a
 /// constant, the slopes of the wavefront, plus noise that goes with 1/I, so that edges near
-/// intensity nulls, where branch points live, come last. The constant 10 (noise matters below about
-/// a tenth of the mean intensity) is the best over Kolmogorov phases with added white and
-/// correlated noise. There, q misplaces clearly fewer samples than the second differences of
-/// Herraez et al. (2002), the intensity alone, or either multiplied by it.
+/// intensity nulls, where branch points live, come last. The constant 10 (noise counts below about
+/// a tenth of the mean intensity) did best over Kolmogorov phases with added white and correlated
+/// noise; there q misplaced fewer samples than the second differences of Herraez et al. (2002), the
+/// intensity, or their product.
 ///
 /// - quality_guided: maximum spanning tree of q, grown by merging regions in the order of quality
 ///   (the non-continuous path of Herraez et al. 2002, Appl. Opt. 41, 7437). O(n^2 log n).

@@ -346,6 +346,17 @@ TEST_P(PhaseUnwrapping, UnwrapsPartsWithoutACommonEdgeEachOnItsOwn) {
   EXPECT_NEAR(unwrapped(0, 0), std::arg(field(0, 0)), 1e-12);
 }
 
+TEST_P(PhaseUnwrapping, UnwrapsAMaskOfPairs) {
+  PupilMask mask(1, 9);
+  mask << true, true, false, true, true, false, true, true, false;
+  Image<double> truth(1, 9);
+  truth << 3.0, 4.0, 0.0, 3.1, 2.1, 0.0, -2.5, -4.5, 0.0;
+  Image<double> expected = truth;
+  expected.leftCols(2) -= 2.0 * pi;  // their mean, 3.5, is above pi
+  expected.rightCols(3).leftCols(2) += 2.0 * pi;
+  EXPECT_LT((unwrap(field_of(truth), mask) - expected).abs().maxCoeff(), 1e-12);
+}
+
 TEST_P(PhaseUnwrapping, GivesASingleSamplesPhaseAboveMinusPi) {
   const auto phase_of = [&](Complex sample) {
     return unwrap(Field<double>::Constant(1, 1, sample), PupilMask::Constant(1, 1, true))(0, 0);
