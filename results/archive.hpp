@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+
+namespace nlcwfs {
+
+/// One evaluation of a design, as it is archived.
+struct ArchivedEvaluation {
+  std::string stage;        ///< "evaluate", "search", "verify"
+  std::string design;       ///< JSON, see design_summary.hpp
+  double cost;              ///< NaN where there is none
+  std::string failure;      ///< why there is no cost; empty where there is one
+  double seconds;           ///< how long it took, s
+  std::string performance;  ///< JSON; empty where the evaluation failed
+};
+
+/// Every evaluation of a run, in an SQLite file with one table, `evaluations`. An evaluation is on
+/// disk when add() returns.
+class Archive {
+ public:
+  /// @param path  a file that does not exist
+  /// @throws std::runtime_error with path and cause; so do the other functions
+  explicit Archive(const std::filesystem::path& path);
+
+  void add(const ArchivedEvaluation& evaluation);
+
+ private:
+  [[noreturn]] void fail(std::string_view action) const;
+  void execute(const char* sql);
+
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::filesystem::path path_;
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+}  // namespace nlcwfs

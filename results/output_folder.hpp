@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nlcwfs {
+
+/// Where a run writes to: a folder of its own, which never existed before.
+class OutputFolder {
+ public:
+  /// Makes the folder.
+  /// @param requested  the folder that the user named; nothing = results/<command>-<n>, the first
+  ///                   that is free, below the current directory
+  /// @throws InputError where the requested folder exists; std::runtime_error where it cannot be
+  ///         made
+  OutputFolder(const std::optional<std::filesystem::path>& requested, std::string_view command);
+
+  /// Says whether a requested folder is free, before a run that may take long.
+  /// @throws InputError where it exists
+  static void require_free(const std::filesystem::path& requested);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path file(std::string_view name) const { return path_ / name; }
+
+  /// Writes a text file, under another name until it is complete.
+  /// @throws std::runtime_error with path and cause
+  void write(std::string_view name, std::string_view text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace nlcwfs

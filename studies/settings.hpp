@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "model/seeing.hpp"
+#include "model/sensor_design.hpp"
+#include "model/simulation.hpp"
+#include "model/telescope.hpp"
+#include "objectives/design_cost.hpp"
+#include "objectives/plane_layout.hpp"
+#include "studies/configuration.hpp"
+
+namespace nlcwfs {
+
+// A configuration's texts as the types of the physics. All throw InputError where values that are
+// allowed each do not go together.
+
+Telescope telescope_of(const Configuration& configuration);
+
+/// With the Fried parameter brought to the telescope's wavelength.
+Seeing seeing_of(const Configuration& configuration, const Telescope& telescope);
+
+/// The design of the sections sensor, detector and reconstruction.
+SensorDesign design_of(const Configuration& configuration);
+
+/// The same with the planes, relaxation and first estimate of the section baseline.
+SensorDesign baseline_of(const Configuration& configuration);
+
+DesignCost cost_of(const Configuration& configuration);
+
+std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
+                                       const Telescope& telescope);
+
+SimulationOptions simulation_options_of(const Configuration& configuration);
+
+/// The simulation that the sections screens and simulation describe. Screens from a file whose
+/// sampling is not the truth's are resampled, and a note says so.
+Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes);
+
+/// The simulation that results are verified in: verify.screens fresh ones of verify.seed, on a truth
+/// verify.truth_factor times as fine, in double precision. A matched truth that is refined no longer
+/// matches the reconstruction's grid, so it becomes an extended one.
+Simulation verification_of(const Configuration& configuration, const SensorDesign& design);
+
+}  // namespace nlcwfs
