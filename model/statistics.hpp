@@ -1,17 +1,18 @@
 #pragma once
-#include <cmath>
+
 #include <span>
+
 namespace nlcwfs {
+
+/// A sample's mean with its standard error, both in the unit of the sample.
 struct MeanAndError {
   double mean;
   double standard_error;
 };
-inline MeanAndError mean_and_standard_error(std::span<const double> s) {
-  double m = 0;
-  for (double x : s) m += x;
-  m /= double(s.size());
-  double v = 0;
-  for (double x : s) v += (x - m) * (x - m);
-  return {m, s.size() > 1 ? std::sqrt(v / double(s.size() - 1) / double(s.size())) : 0.0};
-}
+
+/// Mean and standard error of the mean of independent values: sqrt(s^2 / n), with the sample
+/// variance s^2 over n - 1. One value says nothing about its error: 0 is returned for it.
+/// @pre values is not empty
+MeanAndError mean_and_standard_error(std::span<const double> values);
+
 }  // namespace nlcwfs

@@ -1,0 +1,20 @@
+#include "model/statistics.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace nlcwfs {
+
+MeanAndError mean_and_standard_error(std::span<const double> values) {
+  assert(!values.empty());
+  const auto count = static_cast<Eigen::Index>(values.size());
+  const Eigen::Map<const Eigen::ArrayXd> sample(values.data(), count);
+  const double mean = sample.mean();
+  if (count == 1) return {mean, 0.0};
+  const double squares = (sample - mean).square().sum();
+  return {mean, std::sqrt(squares / (static_cast<double>(count) * static_cast<double>(count - 1)))};
+}
+
+}  // namespace nlcwfs
