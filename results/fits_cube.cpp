@@ -1,0 +1,178 @@
+#include "results/fits_cube.hpp"
+
+#include "model/input_error.hpp"
+
+#include <array>
+#include <cassert>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fitsio.h>
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+/// A failed CFITSIO call; what() is CFITSIO's message.
+class FitsFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// @throws FitsFailure unless `status` is 0
+void check(int status) {
+  if (status == 0) return;
+  std::array<char, FLEN_STATUS> summary{};
+  std::array<char, FLEN_ERRMSG> detail{};
+  fits_get_errstatus(status, summary.data());
+  fits_read_errmsg(detail.data());  // the oldest, which is nearest to the cause
+  fits_clear_errmsg();
+  throw FitsFailure(detail[0] == '\0' ? fmt::format("{}", summary.data())
+                                      : fmt::format("{} ({})", summary.data(), detail.data()));
+}
+
+struct CloseFits {
+  void operator()(fitsfile* file) const {
+    int status = 0;
+    fits_close_file(file, &status);
+    fits_clear_errmsg();
+  }
+};
+using FitsHandle = std::unique_ptr<fitsfile, CloseFits>;
+
+/// CFITSIO expands a leading ~ even in literal names, hence absolute paths.
+std::string literal_name(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).string();
+}
+
+FitsHandle open_to_read(const std::filesystem::path& path) {
+  fitsfile* file = nullptr;
+  int status = 0;
+  fits_open_diskfile(&file, literal_name(path).c_str(), READONLY, &status);
+  check(status);
+  return FitsHandle(file);
+}
+
+std::string read_unit(fitsfile* file) {
+  std::array<char, FLEN_VALUE> unit{};
+  int status = 0;
+  fits_read_key(file, TSTRING, "BUNIT", unit.data(), nullptr, &status);
+  if (status == KEY_NO_EXIST || status == VALUE_UNDEFINED) {
+    fits_clear_errmsg();
+    return "";
+  }
+  check(status);
+  return unit.data();
+}
+
+void write_keyword(fitsfile* file, const FitsKeyword& keyword) {
+  const char* name = keyword.name.c_str();
+  const char* comment = keyword.comment.c_str();
+  int status = 0;
+  if (const auto* text = std::get_if<std::string>(&keyword.value)) {
+    fits_write_key_longstr(file, name, text->c_str(), comment, &status);
+  } else if (const auto* real = std::get_if<double>(&keyword.value)) {
+    fits_write_key_dbl(file, name, *real, -15, comment, &status);
+  } else {
+    ULONGLONG integer = std::get<std::uint64_t>(keyword.value);
+    fits_write_key(file, TULONGLONG, name, &integer, comment, &status);
+  }
+  check(status);
+}
+
+void write_file(const std::filesystem::path& path, const FitsCube& cube,
+                const std::vector<FitsKeyword>& keywords) {
+  fitsfile* created = nullptr;
+  int status = 0;
+  fits_create_diskfile(&created, literal_name(path).c_str(), &status);
+  check(status);
+  FitsHandle file(created);
+
+  const Eigen::Index samples = cube.slices.front().rows();
+  std::array<LONGLONG, 3> shape{samples, samples, static_cast<LONGLONG>(cube.slices.size())};
+  fits_create_imgll(file.get(), DOUBLE_IMG, 3, shape.data(), &status);
+  check(status);
+  write_keyword(file.get(), {"BUNIT", cube.unit, "unit of the values"});
+  for (const FitsKeyword& keyword : keywords) write_keyword(file.get(), keyword);
+
+  std::array<LONGLONG, 3> first{1, 1, 1};
+  for (const Image<double>& slice : cube.slices) {
+    assert(slice.rows() == samples && slice.cols() == samples);
+    fits_write_pixll(file.get(), TDOUBLE, first.data(), slice.size(),
+                     const_cast<double*>(slice.data()), &status);
+    check(status);
+    ++first[2];
+  }
+  fits_close_file(file.release(), &status);
+  check(status);
+}
+
+}  // namespace
+
+FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(
+        key, path.string(),
+        why + "; allowed is a FITS file whose first image is n x n x count (or n x n)");
+  };
+  // Asked first, because CFITSIO would try the name with .gz and the like appended.
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) refuse("there is no such file");
+  if (std::filesystem::is_directory(path, failure)) refuse("this is a directory");
+  FitsCube cube;
+  try {
+    const FitsHandle file = open_to_read(path);
+    int status = 0;
+    int dimensions = 0;
+    int type = 0;
+    std::array<LONGLONG, 3> shape{0, 0, 1};
+    fits_get_img_paramll(file.get(), 3, &type, &dimensions, shape.data(), &status);
+    check(status);
+    if (dimensions != 2 && dimensions != 3) refuse(fmt::format("NAXIS is {}", dimensions));
+    if (shape[0] != shape[1]) {
+      refuse(fmt::format("its slices are {} x {}, not square", shape[0], shape[1]));
+    }
+    if (shape[0] == 0 || shape[2] == 0) refuse("it is empty");
+    cube.unit = read_unit(file.get());
+
+    std::array<LONGLONG, 3> first{1, 1, 1};
+    double undefined = std::numeric_limits<double>::quiet_NaN();  // also what BLANK stands for
+    int any_undefined = 0;  // not asked for, but CFITSIO writes to it
+    for (; first[2] <= shape[2]; ++first[2]) {
+      Image<double> slice(shape[1], shape[0]);
+      fits_read_pixll(file.get(), TDOUBLE, first.data(), slice.size(), &undefined, slice.data(),
+                      &any_undefined, &status);
+      check(status);
+      if (!slice.isFinite().all()) {
+        refuse(fmt::format("slice {} has values that are not finite", first[2]));
+      }
+      cube.slices.push_back(std::move(slice));
+    }
+  } catch (const FitsFailure& error) {
+    refuse(fmt::format("it cannot be read: {}", error.what()));
+  }
+  return cube;
+}
+
+void write_fits_cube(const std::filesystem::path& path, const FitsCube& cube,
+                     const std::vector<FitsKeyword>& keywords) {
+  assert(!cube.slices.empty() && cube.slices.front().size() > 0);
+  if (std::filesystem::exists(path)) {
+    throw std::runtime_error(fmt::format("cannot write {}: the file exists", path.string()));
+  }
+  const std::filesystem::path part = path.string() + ".part";
+  std::filesystem::remove(part);  // left by a run that was killed
+  try {
+    write_file(part, cube, keywords);
+    std::filesystem::rename(part, path);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace nlcwfs
