@@ -121,9 +121,10 @@ std::vector<std::string> command_names() {
                                  const po::options_description& options) {
   std::vector<std::string> names;
   for (const auto& known : options.options()) names.push_back(known->long_name());
-  std::string_view word = std::string_view(option).substr(0, option.find('='));
+  const std::string shown = one_line(option);
+  std::string_view word = std::string_view(shown).substr(0, shown.find('='));
   while (word.starts_with('-')) word.remove_prefix(1);
-  throw InputError("command line", one_line(option),
+  throw InputError("command line", shown,
                    fmt::format("unknown option; did you mean --{}?", nearest_word(word, names)));
 }
 
@@ -187,9 +188,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       }
       const auto names = command_names();
       if (std::ranges::count(names, value) == 0) {
-        throw InputError("command", one_line(value),
+        const std::string shown = one_line(value);
+        throw InputError("command", shown,
                          fmt::format("one of {}; did you mean {}?", fmt::join(names, ", "),
-                                     nearest_word(value, names)));
+                                     nearest_word(shown, names)));
       }
       result.command = value;
       continue;
@@ -224,7 +226,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   if (result.help || result.version) return result;
   if (result.command.empty()) {
     throw InputError(
-        "command", "(nothing)",
+        "command", one_line(""),
         fmt::format("one of {}; nlcwfs --help explains them", fmt::join(command_names(), ", ")));
   }
   if (preset) result.configuration.apply_preset(*preset);

@@ -218,9 +218,10 @@ void Configuration::set(std::string_view key, std::string_view value, std::strin
   if (row == configuration_keys().end()) {
     std::vector<std::string> names;
     for (const ConfigurationKey& known : configuration_keys()) names.push_back(known.name);
+    const std::string shown_key = one_line(key);
     throw InputError(
-        one_line(key), shown,
-        fmt::format("unknown key {}; did you mean {}?", source, nearest_word(key, names)));
+        shown_key, shown,
+        fmt::format("unknown key {}; did you mean {}?", source, nearest_word(shown_key, names)));
   }
   if (value.empty() || !row->accepts(value)) {
     throw InputError(key, shown, fmt::format("{} ({})", row->allowed(), source));

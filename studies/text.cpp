@@ -23,10 +23,11 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-/// The edit distance, except that an abbreviation is near whatever it leaves out.
+/// The edit distance, except that an abbreviation is near the word whose start or end it is.
 std::size_t distance(std::string_view typed, std::string_view meant) {
   const std::size_t edits = edit_distance(typed, meant);
-  return !typed.empty() && meant.starts_with(typed) ? std::min(edits, std::size_t{1}) : edits;
+  const bool abbreviates = !typed.empty() && (meant.starts_with(typed) || meant.ends_with(typed));
+  return abbreviates ? std::min(edits, std::size_t{1}) : edits;
 }
 
 std::string_view last_part(std::string_view word) { return word.substr(word.rfind('.') + 1); }

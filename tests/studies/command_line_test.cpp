@@ -1,0 +1,242 @@
+#include "studies/command_line.hpp"
+
+#include "tests/message_of.hpp"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::Optional;
+using testing::StartsWith;
+
+CommandLine parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "nlcwfs");
+  return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+std::string parse_message(const std::vector<const char*>& arguments) {
+  return message_of([&] { parse(arguments); });
+}
+
+std::string write_file(const std::string& name, std::string_view contents) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "nlcwfs_command_line" /
+      testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / name) << contents;
+  return (folder / name).string();
+}
+
+TEST(CommandLine, ReadsTheCommandAndItsOptions) {
+  const CommandLine plain = parse({"evaluate"});
+  EXPECT_EQ(plain.command, "evaluate");
+  EXPECT_EQ(plain.output, std::nullopt);
+  EXPECT_EQ(plain.threads, 0);
+  EXPECT_FALSE(plain.quiet || plain.help || plain.version || plain.dump_config);
+  EXPECT_EQ(plain.configuration, Configuration());
+
+  const CommandLine full = parse({"--quiet", "optimize", "--output", "my results", "--threads=3",
+                                  "--dump-config", "--screens.count", "8"});
+  EXPECT_EQ(full.command, "optimize");
+  EXPECT_THAT(full.output, Optional(std::filesystem::path("my results")));
+  EXPECT_EQ(full.threads, 3);
+  EXPECT_TRUE(full.quiet && full.dump_config);
+  EXPECT_EQ(full.configuration.integer("screens.count"), 8);
+  EXPECT_EQ(full.configuration.source("screens.count"), "on the command line");
+}
+
+TEST(CommandLine, ValuesMayBeginWithAMinus) {
+  for (const auto& arguments :
+       std::vector<std::vector<const char*>>{{"evaluate", "--sensor.planes", "-47km,47km"},
+                                             {"evaluate", "--sensor.planes=-47km,47km"}}) {
+    EXPECT_THAT(parse(arguments).configuration.lengths("sensor.planes"), ElementsAre(-47e3, 47e3));
+  }
+}
+
+TEST(CommandLine, TheStrongerLayerWinsWhateverTheOrderOfTheArguments) {
+  const std::string first = write_file("first.cfg",
+                                       "[telescope]\ndiameter = 1m\nwavelength = 600nm\n"
+                                       "[reconstruction]\nwindow = 5\n[screens]\ncount = 3\n");
+  const std::string second =
+      write_file("second.cfg", "[telescope]\ndiameter = 2m\nwavelength = 700nm\n");
+  const Configuration configuration =
+      parse({"--telescope.diameter", "3m", "evaluate", "--config", first.c_str(), "--config",
+             second.c_str(), "--preset", "paper"})
+          .configuration;
+  EXPECT_EQ(configuration.length("telescope.diameter"), 3.0);
+  EXPECT_EQ(configuration.length("telescope.wavelength"), 700e-9);
+  EXPECT_EQ(configuration.integer("screens.count"), 3);
+  EXPECT_EQ(configuration.number("reconstruction.window"), 5.0);
+  EXPECT_EQ(configuration.choice("simulation.truth"), "matched");
+  EXPECT_EQ(configuration.integer("detector.pupil_pixels"), 64);
+}
+
+TEST(CommandLine, ADumpedConfigurationReproducesTheCommandLine) {
+  const Configuration configuration = parse({"evaluate", "--preset", "paper", "--seeing.fwhm",
+                                             "0.8", "--sensor.planes", "-1km,2km"})
+                                          .configuration;
+  const std::string file = write_file("my config.cfg", configuration.dump());
+  EXPECT_EQ(parse({"evaluate", "--config", file.c_str()}).configuration, configuration);
+}
+
+TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
+  EXPECT_TRUE(parse({"--help"}).help);
+  EXPECT_TRUE(parse({"--version"}).version);
+  for (const Command& command : commands()) {
+    const char* name = command.name.c_str();
+    EXPECT_TRUE(parse({name, "--help"}).help);
+    EXPECT_TRUE(parse({name, "--version"}).version);
+    EXPECT_TRUE(parse({name, "--dump-config"}).dump_config);
+  }
+  EXPECT_TRUE(parse({"evaluate", "--help", "--config", "/no/such.cfg"}).help);
+}
+
+TEST(CommandLine, AsksForACommand) {
+  const std::string message =
+      "command = (nothing): one of evaluate, screens, scale, optimize; nlcwfs --help explains them";
+  EXPECT_EQ(parse_message({}), message);
+  EXPECT_EQ(parse_message({"--quiet"}), message);
+  EXPECT_EQ(message_of([] { parse_command_line(0, std::vector<const char*>{nullptr}.data()); }),
+            message);
+  EXPECT_EQ(
+      parse_message({"optimise"}),
+      "command = optimise: one of evaluate, screens, scale, optimize; did you mean optimize?");
+  EXPECT_THAT(parse_message({""}), StartsWith("command = (nothing): one of "));
+}
+
+TEST(CommandLine, NamesAStrayArgument) {
+  EXPECT_EQ(parse_message({"evaluate", "--telescope.diameter", "5", "m"}),
+            "command line = m: nothing may follow the command evaluate but options, such as "
+            "--telescope.diameter 0.5m");
+  EXPECT_THAT(parse_message({"evaluate", "optimize"}), StartsWith("command line = optimize: "));
+}
+
+TEST(CommandLine, SuggestsTheNearestOption) {
+  EXPECT_EQ(
+      parse_message({"evaluate", "--telescope.diametr", "5"}),
+      "command line = --telescope.diametr: unknown option; did you mean --telescope.diameter?");
+  EXPECT_THAT(parse_message({"evaluate", "--telescope.diametr=5"}),
+              EndsWith("did you mean --telescope.diameter?"));
+  EXPECT_THAT(parse_message({"evaluate", "--diameter", "5"}),
+              EndsWith("did you mean --telescope.diameter?"));
+  EXPECT_THAT(parse_message({"evaluate", "--outptu", "x"}), EndsWith("did you mean --output?"));
+}
+
+TEST(CommandLine, KnowsNeitherAbbreviationsNorShortOptions) {
+  EXPECT_THAT(parse_message({"evaluate", "--telescope.diam", "5"}),
+              EndsWith("--telescope.diam: unknown option; did you mean --telescope.diameter?"));
+  EXPECT_THAT(parse_message({"evaluate", "--qui"}), EndsWith("did you mean --quiet?"));
+  EXPECT_EQ(parse_message({"-h"}), "command line = -h: unknown option; did you mean --help?");
+  EXPECT_EQ(parse_message({"evaluate", "-q"}),
+            "command line = -q: unknown option; did you mean --quiet?");
+}
+
+TEST(CommandLine, SaysWhatIsMissing) {
+  const std::string message =
+      "screens.seed = (nothing): a whole number from 0 to 18446744073709551615";
+  for (const auto& arguments : std::vector<std::vector<const char*>>{
+           {"evaluate", "--screens.seed"},
+           {"evaluate", "--screens.seed="},
+           {"evaluate", "--screens.seed", ""},
+           {"evaluate", "--screens.seed", "--quiet"},
+           {"evaluate", "--screens.seed", "--nonsense"},
+           {"evaluate", "--screens.seed", "--screens.count", "3"}}) {
+    EXPECT_EQ(parse_message(arguments), message);
+  }
+  for (const char* option : {"--config", "--preset", "--output", "--threads"}) {
+    EXPECT_EQ(parse_message({"evaluate", option}),
+              std::string(option) + " = (nothing): a value must follow");
+  }
+}
+
+TEST(CommandLine, RefusesWhatIsGivenTwice) {
+  EXPECT_EQ(parse_message({"evaluate", "--screens.seed", "1", "--screens.seed", "2"}),
+            "command line = --screens.seed 2: given twice; keep one of them");
+  EXPECT_EQ(parse_message({"evaluate", "--output=a", "--output=b"}),
+            "command line = --output=b: given twice; keep one of them");
+  EXPECT_EQ(parse_message({"evaluate", "--quiet", "--quiet"}),
+            "command line = --quiet: given twice; keep one of them");
+}
+
+TEST(CommandLine, ThreadsAreAWholeNumber) {
+  for (const char* threads : {"-1", "1.5", "two", "4097", "99999999999"}) {
+    EXPECT_EQ(
+        parse_message({"evaluate", "--threads", threads}),
+        std::string("--threads = ") + threads + ": a whole number from 0 (all cores) to 4096");
+  }
+}
+
+TEST(CommandLine, PassesOnWhatTheConfigurationRefuses) {
+  EXPECT_THAT(parse_message({"evaluate", "--telescope.diameter", "5parsec"}),
+              AllOf(StartsWith("telescope.diameter = 5parsec: a length above 0"),
+                    EndsWith("(on the command line)")));
+  EXPECT_EQ(parse_message({"evaluate", "--preset", "nature"}), "--preset = nature: one of paper");
+  EXPECT_THAT(parse_message({"evaluate", "--config", "/no/such.cfg"}),
+              StartsWith("--config = /no/such.cfg: cannot be read"));
+  EXPECT_THAT(parse_message({"evaluate", "--seeing.fwhm", "1", "--seeing.d_over_r0", "4"}),
+              EndsWith("(seeing.fwhm is set to 1 on the command line)"));
+  EXPECT_EQ(parse_message({"evaluate", "--quiet=yes"}), "command line = --quiet: takes no value");
+}
+
+TEST(CommandLine, EveryMessageIsOneLine) {
+  for (const auto& arguments :
+       std::vector<std::vector<const char*>>{{"a\nb"},
+                                             {"evaluate", "a\nb"},
+                                             {"evaluate", "--a\nb"},
+                                             {"evaluate", "-a\nb"},
+                                             {"evaluate", "--threads=a\nb"},
+                                             {"evaluate", "--preset=a\nb"},
+                                             {"evaluate", "--config=a\nb"},
+                                             {"evaluate", "--screens.file=a\nb"},
+                                             {"evaluate", "--quiet=a\nb"}}) {
+    EXPECT_THAT(parse_message(arguments), AllOf(Not(""), Not(HasSubstr("\n"))));
+  }
+}
+
+TEST(CommandLine, HelpListsCommandsOptionsAndKeysIn100Columns) {
+  const std::string help = help_text("");
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+  EXPECT_THAT(help, StartsWith("Usage: nlcwfs <command> "));
+  for (const Command& command : commands()) {
+    EXPECT_THAT(help, AllOf(HasSubstr("\n  " + command.name), HasSubstr(command.description)));
+  }
+  for (const char* option :
+       {"config", "preset", "output", "threads", "quiet", "dump-config", "help", "version"}) {
+    EXPECT_THAT(help, HasSubstr(std::string("\n  --") + option + " "));
+  }
+  for (const ConfigurationKey& key : configuration_keys()) {
+    EXPECT_THAT(help, HasSubstr("\n  --" + key.name + " "));
+    if (!key.default_text.empty()) {
+      EXPECT_THAT(help, HasSubstr("[" + key.default_text + "]")) << key.name;
+    }
+  }
+}
+
+TEST(CommandLine, HelpOfACommandIsAboutThatCommand) {
+  for (const Command& command : commands()) {
+    const std::string help = help_text(command.name);
+    EXPECT_THAT(help, StartsWith("Usage: nlcwfs " + command.name + " "));
+    for (const Command& other : commands()) {
+      const auto mentions = HasSubstr(other.description);
+      if (other.name == command.name) {
+        EXPECT_THAT(help, mentions);
+      } else {
+        EXPECT_THAT(help, Not(mentions));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nlcwfs

@@ -1,0 +1,49 @@
+#include "studies/text.hpp"
+
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+TEST(Text, TrimmedTakesSpacesFromBothEndsOnly) {
+  EXPECT_EQ(trimmed(" \ta b\r\n"), "a b");
+  EXPECT_EQ(trimmed(" \t "), "");
+  EXPECT_EQ(trimmed(""), "");
+}
+
+TEST(Text, OneLineIsOneLineWhateverComes) {
+  EXPECT_EQ(one_line("a\nb\r\x1b[0m\x7f"), "a?b??[0m?");
+  EXPECT_EQ(one_line("\xC3\xA9"), "\xC3\xA9");
+  EXPECT_EQ(one_line(""), "(nothing)");
+  EXPECT_EQ(one_line(std::string(200, 'x')), std::string(200, 'x'));
+  EXPECT_EQ(one_line(std::string(100000, 'x')), std::string(200, 'x') + "...");
+}
+
+TEST(Text, NearestWordFindsTheFewestWrongLetters) {
+  const std::vector<std::string> commands{"evaluate", "screens", "scale", "optimize"};
+  EXPECT_EQ(nearest_word("evalute", commands), "evaluate");
+  EXPECT_EQ(nearest_word("optimise", commands), "optimize");
+  EXPECT_EQ(nearest_word("scren", commands), "screens");
+  for (const std::string& command : commands) EXPECT_EQ(nearest_word(command, commands), command);
+}
+
+TEST(Text, NearestWordKnowsSectionsAndAbbreviations) {
+  const std::vector<std::string> keys{"help",          "telescope.diameter", "seeing.d_over_r0",
+                                      "seeing.fwhm",   "screens.seed",       "search.seed",
+                                      "sensor.planes", "scale.diameter",     "search.z1"};
+  EXPECT_EQ(nearest_word("diameter", keys), "telescope.diameter");
+  EXPECT_EQ(nearest_word("diametr", keys), "telescope.diameter");
+  EXPECT_EQ(nearest_word("scale.diametr", keys), "scale.diameter");
+  EXPECT_EQ(nearest_word("search.sed", keys), "search.seed");
+  EXPECT_EQ(nearest_word("telescope.seed", keys), "screens.seed");
+  EXPECT_EQ(nearest_word("telescope.diam", keys), "telescope.diameter");
+  EXPECT_EQ(nearest_word("telescopes.fwhm", keys), "seeing.fwhm");
+  EXPECT_EQ(nearest_word("r0", keys), "seeing.d_over_r0");
+  EXPECT_EQ(nearest_word("h", keys), "help");
+  EXPECT_EQ(nearest_word("plane", keys), "sensor.planes");
+}
+
+}  // namespace
+}  // namespace nlcwfs

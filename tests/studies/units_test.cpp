@@ -1,0 +1,135 @@
+#include "studies/units.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <limits>
+#include <locale>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::ElementsAre;
+using testing::Optional;
+using testing::Pair;
+
+TEST(Units, ALengthWithAUnitIsTheSameDoubleAsItsSiLiteral) {
+  EXPECT_EQ(parse_length("0.5"), 0.5);
+  EXPECT_EQ(parse_length("0.5m"), 0.5);
+  EXPECT_EQ(parse_length("532nm"), 532e-9);
+  EXPECT_EQ(parse_length("1.55um"), 1.55e-6);
+  EXPECT_EQ(parse_length("10mm"), 10e-3);
+  EXPECT_EQ(parse_length("12.5cm"), 12.5e-2);
+  EXPECT_EQ(parse_length("47km"), 47e3);
+  EXPECT_EQ(parse_length("-180km"), -180e3);
+  EXPECT_EQ(parse_length("+180km"), 180e3);
+  EXPECT_EQ(parse_length("5e-7m"), 5e-7);
+  EXPECT_EQ(parse_length(" 47 km "), 47e3);
+}
+
+TEST(Units, ALengthIsReadAsAWholeOrNotAtAll) {
+  for (const char* text : {"", " ", "km", "47 parsec", "47kmh", "47km 3", "4 7km", "0x10", "1,5m",
+                           "47KM", "--47km", "+-47km", "-+47km", "++1", "+", "-", "1e", "47k"}) {
+    EXPECT_EQ(parse_length(text), std::nullopt) << text;
+  }
+}
+
+TEST(Units, OnlyFiniteNumbersPass) {
+  for (const char* text : {"nan", "inf", "-inf", "infinity", "NaN", "1e400", "-1e400", "nan(1)"}) {
+    EXPECT_EQ(parse_number(text), std::nullopt) << text;
+    EXPECT_EQ(parse_length(text), std::nullopt) << text;
+    EXPECT_EQ(parse_time(text), std::nullopt) << text;
+  }
+  EXPECT_EQ(parse_length("1e308"), 1e308);
+  EXPECT_EQ(parse_length("1e308km"), std::nullopt);
+}
+
+TEST(Units, NumbersIgnoreTheLocale) {
+  struct DecimalComma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+  };
+  const std::locale before = std::locale::global(std::locale(std::locale(), new DecimalComma));
+  EXPECT_EQ(parse_number("0.5"), 0.5);
+  EXPECT_EQ(parse_number("0,5"), std::nullopt);
+  EXPECT_EQ(format_length(0.0125), "12.5 mm");
+  std::locale::global(before);
+}
+
+TEST(Units, TimesHaveTheirUnits) {
+  EXPECT_EQ(parse_time("90"), 90.0);
+  EXPECT_EQ(parse_time("90s"), 90.0);
+  EXPECT_EQ(parse_time("250ms"), 0.25);
+  EXPECT_EQ(parse_time("250us"), 250e-6);
+  EXPECT_EQ(parse_time("5min"), 300.0);
+  EXPECT_EQ(parse_time("1.5h"), 5400.0);
+  EXPECT_EQ(parse_time("5m"), std::nullopt);
+  EXPECT_EQ(parse_time("1d"), std::nullopt);
+}
+
+TEST(Units, WholeNumbersAreExactAndStayInRange) {
+  EXPECT_EQ(parse_integer("16"), 16);
+  EXPECT_EQ(parse_integer("-3"), -3);
+  EXPECT_EQ(parse_integer("2147483647"), 2147483647);
+  for (const char* text : {"", "1.0", "1e3", "0x10", "16 screens", "2147483648", "-2147483649"}) {
+    EXPECT_EQ(parse_integer(text), std::nullopt) << text;
+  }
+  EXPECT_EQ(parse_seed("0"), 0u);
+  EXPECT_EQ(parse_seed("18446744073709551615"), std::numeric_limits<std::uint64_t>::max());
+  for (const char* text : {"", "-1", "1.5", "18446744073709551616"}) {
+    EXPECT_EQ(parse_seed(text), std::nullopt) << text;
+  }
+}
+
+TEST(Units, ListsAllowSpacesButNoEmptyElement) {
+  EXPECT_THAT(parse_lengths("-47km,47km"), Optional(ElementsAre(-47e3, 47e3)));
+  EXPECT_THAT(parse_lengths(" -47km , 0.5 "), Optional(ElementsAre(-47e3, 0.5)));
+  EXPECT_THAT(parse_lengths("3km"), Optional(ElementsAre(3e3)));
+  for (const char* text : {"", ",", "1,", ",1", "1,,2", "1;2", "1 2", "1km,2parsec"}) {
+    EXPECT_EQ(parse_lengths(text), std::nullopt) << text;
+  }
+}
+
+TEST(Units, RangesRunUpwards) {
+  EXPECT_THAT(parse_length_range("5km:100km"), Optional(Pair(5e3, 100e3)));
+  EXPECT_THAT(parse_length_range("-5km : 100"), Optional(Pair(-5e3, 100.0)));
+  for (const char* text : {"", ":", "5km", "5km:", ":5km", "5km:5km", "5km:1km", "1:2:3", "1-2"}) {
+    EXPECT_EQ(parse_length_range(text), std::nullopt) << text;
+  }
+}
+
+TEST(Units, ARampIsANumberOrTwo) {
+  EXPECT_THAT(parse_ramp("-0.5"), Optional(Pair(-0.5, -0.5)));
+  EXPECT_THAT(parse_ramp("0.5:-0.5"), Optional(Pair(0.5, -0.5)));
+  for (const char* text : {"", ":", "0.5:", ":0.5", "0:0:0", "half"}) {
+    EXPECT_EQ(parse_ramp(text), std::nullopt) << text;
+  }
+}
+
+TEST(Units, LengthsAreWrittenInTheUnitThatReadsBest) {
+  EXPECT_EQ(format_length(47e3), "47 km");
+  EXPECT_EQ(format_length(-180e3), "-180 km");
+  EXPECT_EQ(format_length(58740.6), "58.74 km");
+  EXPECT_EQ(format_length(12345678.0), "12346 km");
+  EXPECT_EQ(format_length(0.5), "500 mm");
+  EXPECT_EQ(format_length(8.2), "8.2 m");
+  EXPECT_EQ(format_length(532e-9), "532 nm");
+  EXPECT_EQ(format_length(2e-10), "0.2 nm");
+  EXPECT_EQ(format_length(0.0), "0 m");
+}
+
+TEST(Units, WhatIsWrittenIsReadBackToFourDigits) {
+  // An irrational step meets every unit, both sides of its limits, and many leading digits.
+  for (double length = 1e-11; length < 1e12; length *= std::numbers::phi) {
+    for (const double signed_length : {length, -length}) {
+      const std::string text = format_length(signed_length);
+      const auto read = parse_length(text);
+      ASSERT_TRUE(read) << text;
+      EXPECT_NEAR(*read, signed_length, 5.001e-4 * length) << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nlcwfs
