@@ -24,11 +24,10 @@ SearchMethod search_method(std::string_view optimizer, int variable_count);
 
 /// What to search with, and from where.
 struct SearchOptions {
-  std::string optimizer = "auto";  ///< see search_method
-  std::uint64_t seed = 1;          ///< of algorithms that draw random numbers
-  std::vector<SearchPoint>
-      starts;                   ///< designs to begin with; none = the centre of the first choice
-  EvaluatorOptions evaluation;  ///< budget, time limit, stopping, observer
+  std::string optimizer = "auto";        ///< see search_method
+  std::uint64_t seed = 1;                ///< of algorithms that draw random numbers
+  std::vector<SearchPoint> starts = {};  ///< to begin with; none = the centre of the first choice
+  EvaluatorOptions evaluation = {};      ///< budget, time limit, stopping, observer
 };
 
 /// A part of a search.

@@ -41,11 +41,11 @@ struct EvaluationRecord {
 struct EvaluatorOptions {
   int budget = 150;  ///< evaluations at most, at least 1; answers from the cache are free
   /// No evaluation starts later than this after the evaluator was made, s; the first always does.
-  std::optional<double> time_limit;
-  std::stop_token stop;  ///< no evaluation starts once a stop is requested
+  std::optional<double> time_limit = {};
+  std::stop_token stop = {};  ///< no evaluation starts once a stop is requested
   /// Called after each new evaluation, in the thread of the search and before the problem is asked
   /// for another cost. Its exceptions end the search and reach the caller.
-  std::function<void(const EvaluationRecord&)> observer;
+  std::function<void(const EvaluationRecord&)> observer = {};
 };
 
 /// Thrown by the evaluator to unwind an optimizer when a limit is reached; searches turn it into

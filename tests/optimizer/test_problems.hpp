@@ -29,23 +29,32 @@ inline std::string exact_key(const SearchPoint& point) {
 struct TestProblem : Problem {
   using Cost = std::function<double(int choice, const Eigen::VectorXd& x)>;
 
-  TestProblem(std::string problem_name, std::vector<Variable> box, Cost function, double lowest)
-      : name(std::move(problem_name)),
-        box_(std::move(box)),
-        function_(std::move(function)),
+  TestProblem(std::string its_name, std::vector<Variable> its_box, Cost its_function, double lowest)
+      : name(std::move(its_name)),
+        box(std::move(its_box)),
+        function(std::move(its_function)),
         minimum(lowest) {}
 
-  std::vector<Variable> variables() const override { return box_; }
+  std::vector<Variable> variables() const override { return box; }
   int choice_count() const override { return choices; }
   std::string key(const SearchPoint& point) const override { return key_of(point); }
   double cost(const SearchPoint& point) override {
     ++calls;
-    return function_(point.choice, point.x);
+    return function(point.choice, point.x);
+  }
+
+  /// A point beside the centre of the box where every solvable problem has a cost.
+  Eigen::VectorXd start() const {
+    Eigen::VectorXd x(box.size());
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      x[i] = box[i].lower + 0.6 * (box[i].upper - box[i].lower);
+    }
+    return x;
   }
 
   std::string name;
-  std::vector<Variable> box_;
-  Cost function_;
+  std::vector<Variable> box;
+  Cost function;
   double minimum;  ///< the lowest cost; infinity where every evaluation fails
   int choices = 1;
   std::function<std::string(const SearchPoint&)> key_of = exact_key;
@@ -209,7 +218,7 @@ inline TestProblem choices(std::uint64_t seed = 1, double shift = 0.15) {
 inline TestProblem nan_region() {
   TestProblem problem = rotated_bowl();
   problem.name = "nan_region";
-  problem.function_ = [](int, const Eigen::VectorXd& x) {
+  problem.function = [](int, const Eigen::VectorXd& x) {
     if (std::hypot(x[0] - 4.25, x[1] - 5.25) < 0.2) {
       return x[0] > 4.25 ? std::numeric_limits<double>::infinity()
                          : std::numeric_limits<double>::quiet_NaN();
@@ -223,7 +232,7 @@ inline TestProblem nan_region() {
 inline TestProblem throwing_region() {
   TestProblem problem = rotated_bowl();
   problem.name = "throwing_region";
-  problem.function_ = [](int, const Eigen::VectorXd& x) {
+  problem.function = [](int, const Eigen::VectorXd& x) {
     if (x[1] < 5.05) throw std::runtime_error("the planes are too close");
     return rotated_bowl_cost(x);
   };

@@ -1,0 +1,222 @@
+#include "optimizer/evaluator.hpp"
+
+#include "test_problems.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+SearchPoint at(double x0, double x1, int choice = 0) { return {choice, Eigen::Vector2d(x0, x1)}; }
+
+/// x0 is the cost, over a box from -1000 to 1000.
+TestProblem linear() {
+  return {"linear", cube(2, -1000.0, 1000.0), [](int, const Eigen::VectorXd& x) { return x[0]; },
+          -1000.0};
+}
+
+TEST(Evaluator, ReturnsTheCostAndRecordsIt) {
+  TestProblem problem = rotated_bowl();
+  std::vector<EvaluationRecord> records;
+  Evaluator evaluator(problem,
+                      {.observer = [&](const auto& record) { records.push_back(record); }});
+  EXPECT_EQ(evaluator(at(4.0, 5.0)), rotated_bowl_cost(Eigen::Vector2d(4.0, 5.0)));
+  EXPECT_NEAR(evaluator(at(4.4, 5.1)), 2.0, 1e-12);
+  evaluator(at(4.1, 5.0));
+
+  ASSERT_EQ(records.size(), 3u);
+  EXPECT_EQ(records[0].index, 1);
+  EXPECT_EQ(records[2].index, 3);
+  EXPECT_EQ(records[0].key, "0 4 5");
+  EXPECT_EQ(records[0].best_cost, records[0].cost);
+  EXPECT_EQ(records[2].best_cost, records[1].cost);
+  EXPECT_EQ(records[2].failure, "");
+  EXPECT_GE(records[0].seconds, 0.0);
+  ASSERT_TRUE(evaluator.best());
+  EXPECT_EQ(evaluator.best()->point.x, Eigen::Vector2d(4.4, 5.1));
+  EXPECT_EQ(evaluator.best()->key, "0 4.4 5.1");
+  EXPECT_EQ(evaluator.best()->cost, records[1].cost);
+}
+
+TEST(Evaluator, EvaluatesDesignsOfEqualKeysOnce) {
+  TestProblem problem = rotated_bowl();
+  problem.choices = 2;
+  problem.key_of = [](const SearchPoint& point) { return fmt::format("{:.2f}", point.x[0]); };
+  Evaluator evaluator(problem, {.budget = 1});
+  const double cost = evaluator(at(4.0, 5.0));
+  EXPECT_FALSE(evaluator.best_of(1));
+  EXPECT_EQ(evaluator(at(4.001, 5.5, 1)), cost);
+  EXPECT_EQ(problem.calls, 1);
+  EXPECT_EQ(evaluator.evaluations(), 1);
+  EXPECT_EQ(evaluator.cache_hits(), 1);
+  ASSERT_TRUE(evaluator.best_of(1));
+  EXPECT_EQ(evaluator.best_of(1)->cost, cost);
+  EXPECT_EQ(evaluator.best_of(1)->point.x, Eigen::Vector2d(4.001, 5.5));
+}
+
+TEST(Evaluator, MovesPointsOutsideOntoTheBounds) {
+  TestProblem problem = linear();
+  Evaluator evaluator(problem, {});
+  EXPECT_EQ(evaluator(at(1000.0 + 1e-9, 0.0)), 1000.0);
+  EXPECT_EQ(evaluator(at(-1e30, -1e30)), -1000.0);
+  EXPECT_EQ(evaluator.best()->point.x, Eigen::Vector2d(-1000.0, -1000.0));
+}
+
+TEST(Evaluator, StopsBeforeItOverrunsTheBudget) {
+  TestProblem problem = linear();
+  Evaluator evaluator(problem, {.budget = 2});
+  EXPECT_EQ(evaluator.evaluations_left(), 2);
+  evaluator(at(1.0, 0.0));
+  evaluator(at(2.0, 0.0));
+  EXPECT_EQ(evaluator.evaluations_left(), 0);
+  try {
+    evaluator(at(3.0, 0.0));
+    FAIL() << "a third evaluation was allowed";
+  } catch (const SearchStopped& stopped) {
+    EXPECT_EQ(stopped.termination, Termination::budget_exhausted);
+  }
+  EXPECT_EQ(problem.calls, 2);
+}
+
+TEST(Evaluator, StopsWhereAStopWasRequested) {
+  TestProblem problem = linear();
+  std::stop_source source;
+  Evaluator evaluator(problem, {.stop = source.get_token()});
+  evaluator(at(1.0, 0.0));
+  source.request_stop();
+  EXPECT_EQ(evaluator(at(1.0, 0.0)), 1.0);  // known: needs no evaluation
+  try {
+    evaluator(at(2.0, 0.0));
+    FAIL() << "an evaluation started after the stop";
+  } catch (const SearchStopped& stopped) {
+    EXPECT_EQ(stopped.termination, Termination::stop_requested);
+  }
+}
+
+TEST(Evaluator, AllowsOneEvaluationWhateverTheTimeLimit) {
+  TestProblem problem = linear();
+  Evaluator evaluator(problem, {.time_limit = 0.0});
+  EXPECT_EQ(evaluator(at(1.0, 0.0)), 1.0);
+  EXPECT_EQ(evaluator.evaluations_left(), 0);
+  try {
+    evaluator(at(2.0, 0.0));
+    FAIL() << "an evaluation started after the time limit";
+  } catch (const SearchStopped& stopped) {
+    EXPECT_EQ(stopped.termination, Termination::time_limit);
+  }
+}
+
+TEST(Evaluator, AFarTimeLimitLeavesTheBudget) {
+  TestProblem problem = linear();
+  Evaluator evaluator(problem, {.budget = 10, .time_limit = 1e9});
+  evaluator(at(1.0, 0.0));
+  EXPECT_EQ(evaluator.evaluations_left(), 9);
+}
+
+TEST(Evaluator, AnswersFailuresWithAFinitePenaltyThatIsWorseThanAnyCost) {
+  TestProblem problem = linear();
+  problem.function = [](int, const Eigen::VectorXd& x) -> double {
+    if (x[1] == 1.0) return std::numeric_limits<double>::quiet_NaN();
+    if (x[1] == 2.0) return -std::numeric_limits<double>::infinity();
+    if (x[1] == 3.0) return -1e200;
+    if (x[1] == 4.0) throw std::bad_alloc();
+    if (x[1] == 5.0) throw std::runtime_error("no light");
+    if (x[1] == 6.0) throw 42;
+    return x[0];
+  };
+  std::vector<EvaluationRecord> records;
+  Evaluator evaluator(problem,
+                      {.observer = [&](const auto& record) { records.push_back(record); }});
+  EXPECT_EQ(evaluator(at(0.0, 1.0)), 1e6);
+  EXPECT_EQ(records.back().best_cost, std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(evaluator.best());
+
+  evaluator(at(-3.0, 0.0));  // one cost, negative: the scale is its size
+  EXPECT_DOUBLE_EQ(evaluator(at(1.0, 1.0)), -3.0 + 10.0 * 3.0);
+  evaluator(at(2.0, 0.0));  // costs from -3 to 2: the scale is their spread
+  for (const double failing : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+    EXPECT_DOUBLE_EQ(evaluator(at(2.0, failing)), 2.0 + 10.0 * 5.0);
+    EXPECT_TRUE(std::isnan(records.back().cost));
+    EXPECT_EQ(records.back().best_cost, -3.0);
+  }
+  EXPECT_EQ(evaluator(at(0.0, 1.0)), 1e6) << "a design's penalty must not change";
+  EXPECT_EQ(evaluator.failures(), 8);
+  EXPECT_EQ(evaluator.best()->cost, -3.0);
+
+  std::vector<std::string> reasons;
+  for (const auto& record : records) reasons.push_back(record.failure);
+  EXPECT_THAT(reasons, testing::ElementsAre("the cost is nan", "", "the cost is nan", "",
+                                            "the cost is nan", "the cost is -inf",
+                                            "the cost is -1e+200", "exception: std::bad_alloc",
+                                            "exception: no light", "exception of an unknown type"));
+}
+
+TEST(Evaluator, PenalisesFailuresWhereAllCostsAreZero) {
+  TestProblem problem = linear();
+  problem.function = [](int, const Eigen::VectorXd& x) {
+    return x[0] == 0.0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  };
+  Evaluator evaluator(problem, {});
+  evaluator(at(0.0, 0.0));
+  EXPECT_EQ(evaluator(at(1.0, 0.0)), 10.0);
+}
+
+TEST(Evaluator, GivesUpAfterTooManyFailuresInARow) {
+  TestProblem problem = linear();
+  problem.function = [](int, const Eigen::VectorXd& x) -> double {
+    if (x[0] < 0.0) throw std::runtime_error("no light");
+    return x[0];
+  };
+  int records = 0;
+  Evaluator evaluator(problem, {.budget = 1000, .observer = [&](const auto&) { ++records; }});
+  const int allowed = Evaluator::failures_in_a_row_allowed;
+  for (int i = 1; i < allowed; ++i) evaluator(at(-i, 0.0));
+  evaluator(at(1.0, 0.0));  // a success: the row begins again
+  for (int i = 1; i < allowed; ++i) evaluator(at(-i, 1.0));
+  try {
+    evaluator(at(-1.0, 2.0));
+    FAIL() << "the search went on";
+  } catch (const SearchFailed& failed) {
+    EXPECT_THAT(failed.what(), testing::EndsWith("20 evaluations in a row failed, the last with "
+                                                 "exception: no light"));
+  }
+  EXPECT_EQ(records, 2 * allowed);
+}
+
+TEST(Evaluator, LetsTheObserversExceptionsThrough) {
+  TestProblem problem = linear();
+  Evaluator evaluator(problem, {.observer = [](const auto&) { throw std::domain_error("full"); }});
+  EXPECT_THROW(evaluator(at(1.0, 0.0)), std::domain_error);
+}
+
+TEST(Evaluator, BestDesignsDiffer) {
+  TestProblem problem = linear();  // 2 % of the range is 40
+  problem.choices = 2;
+  Evaluator evaluator(problem, {});
+  evaluator(at(100.0, 0.0));
+  evaluator(at(50.0, 0.0));
+  evaluator(at(0.0, 0.0));
+  evaluator(at(39.0, 39.0));   // the same as the one before
+  evaluator(at(1.0, 41.0));    // differs in x1
+  evaluator(at(2.0, 0.0, 1));  // differs in its choice
+  std::vector<double> costs;
+  for (const EvaluatedDesign& design : evaluator.best_designs(4)) costs.push_back(design.cost);
+  EXPECT_THAT(costs, testing::ElementsAre(0.0, 1.0, 2.0, 50.0));
+}
+
+TEST(Termination, HasNames) {
+  EXPECT_EQ(to_string(Termination::converged), "converged");
+  EXPECT_EQ(to_string(Termination::budget_exhausted), "budget_exhausted");
+  EXPECT_EQ(to_string(Termination::time_limit), "time_limit");
+  EXPECT_EQ(to_string(Termination::stop_requested), "stop_requested");
+}
+
+}  // namespace
+}  // namespace nlcwfs

@@ -1,0 +1,190 @@
+#include "optimizer/nlopt_backend.hpp"
+
+#include "test_problems.hpp"
+
+#include <algorithm>
+#include <gmock/gmock.h>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+const std::vector<std::string> algorithms{"direct_l",    "crs2",   "sbplx",
+                                          "nelder_mead", "bobyqa", "cobyla"};
+
+struct BackendRun {
+  StageResult stage;
+  std::vector<EvaluationRecord> records;
+  double best = std::numeric_limits<double>::infinity();
+};
+
+BackendRun run(const std::string& algorithm, TestProblem problem, StageOptions options) {
+  BackendRun done;
+  Evaluator evaluator(problem, {.budget = 1000, .observer = [&](const EvaluationRecord& record) {
+                                  done.records.push_back(record);
+                                }});
+  done.stage = minimize(algorithm, evaluator, 0, problem.start(), options);
+  if (evaluator.best()) done.best = evaluator.best()->cost;
+  return done;
+}
+
+/// Every algorithm on every problem that it can solve.
+class EveryAlgorithm : public testing::TestWithParam<std::string> {
+ protected:
+  std::vector<TestProblem> problems() const {
+    std::vector<TestProblem> problems = solvable_problems();
+    if (GetParam() == "bobyqa") {
+      std::erase_if(problems, [](const auto& problem) { return problem.box.size() < 2; });
+    }
+    return problems;
+  }
+};
+
+TEST_P(EveryAlgorithm, KeepsWithinItsLimitAndLosesNoBestPoint) {
+  for (const TestProblem& problem : problems()) {
+    SCOPED_TRACE(problem.name);
+    for (const int limit : {1, 2, 7, 80}) {
+      const BackendRun result = run(GetParam(), problem, {.max_evaluations = limit});
+      EXPECT_LE(result.stage.evaluations, limit);
+      EXPECT_EQ(result.stage.evaluations, static_cast<int>(result.records.size()));
+      EXPECT_TRUE(result.stage.finished || result.stage.evaluations == limit);
+      double lowest = std::numeric_limits<double>::infinity();
+      for (const EvaluationRecord& record : result.records) {
+        if (record.failure.empty()) lowest = std::min(lowest, record.cost);
+        for (std::size_t i = 0; i < problem.box.size(); ++i) {
+          EXPECT_GE(record.point.x[i], problem.box[i].lower);
+          EXPECT_LE(record.point.x[i], problem.box[i].upper);
+        }
+      }
+      EXPECT_EQ(result.best, lowest);
+      EXPECT_GE(result.best, problem.minimum - 1e-5);
+    }
+  }
+}
+
+TEST_P(EveryAlgorithm, TakesTheSamePathWithTheSameSeedInAnyThread) {
+  for (const TestProblem& problem : problems()) {
+    SCOPED_TRACE(problem.name);
+    const BackendRun first = run(GetParam(), problem, {.max_evaluations = 80, .seed = 3});
+    BackendRun second;
+    std::thread([&] {
+      second = run(GetParam(), problem, {.max_evaluations = 80, .seed = 3});
+    }).join();
+    ASSERT_EQ(first.records.size(), second.records.size());
+    for (std::size_t i = 0; i < first.records.size(); ++i) {
+      ASSERT_EQ(first.records[i].key, second.records[i].key);
+    }
+  }
+}
+
+TEST_P(EveryAlgorithm, IsResumedByAHigherLimit) {
+  TestProblem problem = nan_region();
+  std::vector<std::string> keys;
+  Evaluator evaluator(problem,
+                      {.observer = [&](const auto& record) { keys.push_back(record.key); }});
+  for (const int limit : {20, 15}) {
+    minimize(GetParam(), evaluator, 0, problem.start(), {.max_evaluations = limit});
+  }
+  std::vector<std::string> keys_at_once;
+  for (const auto& record : run(GetParam(), problem, {.max_evaluations = 35}).records) {
+    keys_at_once.push_back(record.key);
+  }
+  EXPECT_EQ(keys, keys_at_once);
+}
+
+TEST_P(EveryAlgorithm, FindsTheBottomOfABowl) {
+  const BackendRun result = run(GetParam(), rotated_bowl(), {.max_evaluations = 400});
+  EXPECT_NEAR(result.best, 2.0, 1e-3);
+}
+
+TEST_P(EveryAlgorithm, EndsWhereEveryDesignIsKnown) {
+  TestProblem problem = rotated_bowl();
+  problem.key_of = [](const SearchPoint& point) { return fmt::format("{:.1f}", point.x[0]); };
+  Evaluator evaluator(problem, {.budget = 1000});
+  minimize(GetParam(), evaluator, 0, problem.start(), {.max_evaluations = 50});
+  EXPECT_LE(evaluator.evaluations(), 16);  // 3.5 to 5.0
+}
+
+TEST_P(EveryAlgorithm, LetsTheEvaluatorsExceptionsThrough) {
+  TestProblem problem = rotated_bowl();
+  const Eigen::VectorXd start = problem.start();
+  Evaluator observed(problem, {.observer = [](const EvaluationRecord& record) {
+                       if (record.index == 5) throw std::domain_error("disk full");
+                     }});
+  EXPECT_THROW(minimize(GetParam(), observed, 0, start, {}), std::domain_error);
+  EXPECT_EQ(problem.calls, 5);
+
+  Evaluator limited(problem, {.budget = 5});
+  EXPECT_THROW(minimize(GetParam(), limited, 0, start, {}), SearchStopped);
+  EXPECT_EQ(limited.evaluations(), 5);
+}
+
+TEST_P(EveryAlgorithm, SurvivesAProblemWithoutAnyCost) {
+  TestProblem problem = all_failing();
+  Evaluator evaluator(problem, {});
+  try {
+    minimize(GetParam(), evaluator, 0, problem.start(), {});
+  } catch (const SearchFailed&) {
+    EXPECT_EQ(problem.calls, Evaluator::failures_in_a_row_allowed);
+  }
+  EXPECT_LE(problem.calls, Evaluator::failures_in_a_row_allowed);
+  EXPECT_EQ(evaluator.failures(), problem.calls);
+  EXPECT_FALSE(evaluator.best());
+}
+
+TEST_P(EveryAlgorithm, StartsFromCornersOfTheBox) {
+  for (const double corner : {0.0, 1.0}) {
+    TestProblem problem = choices();
+    Evaluator evaluator(problem, {});
+    minimize(GetParam(), evaluator, 7, Eigen::Vector2d(corner, corner), {.max_evaluations = 60});
+    ASSERT_TRUE(evaluator.best_of(7));
+    EXPECT_FALSE(evaluator.best_of(0));
+    EXPECT_LT(evaluator.best_of(7)->cost, problem.function(7, Eigen::Vector2d(corner, corner)));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Nlopt, EveryAlgorithm, testing::ValuesIn(algorithms),
+                         [](const auto& test) { return test.param; });
+
+TEST(NloptBackend, DrawsOtherRandomNumbersWithAnotherSeed) {
+  const auto point = [](std::uint64_t seed) {
+    return run("crs2", rotated_bowl(), {.max_evaluations = 3, .seed = seed}).records.back().key;
+  };
+  EXPECT_NE(point(1), point(2));
+}
+
+TEST(NloptBackend, KnowsTheScopeOfItsAlgorithms) {
+  EXPECT_EQ(nlopt_scope("direct_l", 1), SearchScope::global);
+  EXPECT_EQ(nlopt_scope("crs2", 6), SearchScope::global);
+  for (const auto* local : {"sbplx", "nelder_mead", "bobyqa", "cobyla"}) {
+    EXPECT_EQ(nlopt_scope(local, 2), SearchScope::local);
+  }
+}
+
+TEST(NloptBackend, RefusesWhatItCannotSolveBeforeItStarts) {
+  const auto message_of = [](const std::string& algorithm) -> std::string {
+    TestProblem problem = one_variable();
+    Evaluator evaluator(problem, {});
+    try {
+      minimize(algorithm, evaluator, 0, Eigen::VectorXd::Zero(1), {});
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(problem.calls, 0);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message_of("bobyqa"),
+            "bobyqa needs at least 2 variables, this problem has 1: take sbplx");
+  EXPECT_EQ(message_of("newuoa"),
+            "newuoa is no optimizer: there are direct_l, crs2, sbplx, nelder_mead, bobyqa, cobyla");
+  EXPECT_EQ(message_of("sbplx"), "");
+}
+
+}  // namespace
+}  // namespace nlcwfs
