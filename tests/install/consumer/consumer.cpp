@@ -1,7 +1,7 @@
-#include <fmt/core.h>
-
 #include "model/fourier_transform.hpp"
 #include "model/telescope.hpp"
+
+#include <fmt/core.h>
 
 int main() {
   const nlcwfs::LineTransform<double> transform(8);  // needs what the library links to
