@@ -1,5 +1,7 @@
 #include "model/turbulence_screen.hpp"
 
+#include "model/random_stream.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,9 +11,7 @@
 #include <utility>
 
 #include <boost/math/special_functions/bessel.hpp>
-#include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
-#include <boost/random/seed_seq.hpp>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -124,11 +124,7 @@ TurbulenceScreenGenerator::TurbulenceScreenGenerator(const Seeing& seeing, int s
 
 std::array<PhaseScreen, 2> TurbulenceScreenGenerator::screen_pair(int pair) const {
   assert(pair >= 0);
-  const std::array<std::uint32_t, 3> key{static_cast<std::uint32_t>(seed_),
-                                         static_cast<std::uint32_t>(seed_ >> 32),
-                                         static_cast<std::uint32_t>(pair)};
-  boost::random::seed_seq sequence(key.begin(), key.end());
-  boost::random::mt19937_64 generator(sequence);
+  RandomStream generator = random_stream({seed_, static_cast<std::uint64_t>(pair)});
   boost::random::normal_distribution<double> normal;
 
   // Only the first n samples of each axis are wanted, so the columns beyond n are never
@@ -146,7 +142,8 @@ std::array<PhaseScreen, 2> TurbulenceScreenGenerator::screen_pair(int pair) cons
     transform_.forward(line.data());
     field.row(y) = line.head(samples_).transpose();
   }
-  for_each_column(field, [this](Complex* column, Eigen::Index) { transform_.forward(column); });
+  for_each_column(field, samples_,
+                  [this](Complex* column, Eigen::Index) { transform_.forward(column); });
 
   const Eigen::ArrayXd position =
       Eigen::ArrayXd::LinSpaced(samples_, -0.5 * (samples_ - 1), 0.5 * (samples_ - 1));
