@@ -16,8 +16,8 @@ struct SearchMethod {
   std::string local;   ///< refines; empty = the global algorithm goes on instead
 };
 
-/// The method that a name stands for: `GLOBAL+LOCAL` such as `direct_l+sbplx`, one algorithm alone,
-/// or `auto`, which is direct_l+sbplx (see nlopt_scope for the algorithms).
+/// The method that a name stands for: `GLOBAL+LOCAL` such as `direct_l+sbplx`, one algorithm alone
+/// (see nlopt_scope), or `auto`: direct_l+sbplx up to 2 variables, direct_l+nelder_mead above.
 /// @throws std::invalid_argument for an unknown name, for an algorithm in the wrong place, and for
 ///   an algorithm that cannot search that few variables
 SearchMethod search_method(std::string_view optimizer, int variable_count);

@@ -100,7 +100,7 @@ double Evaluator::operator()(const SearchPoint& requested) {
   record.best_cost = best_ ? best_->cost : std::numeric_limits<double>::infinity();
   if (options_.observer) options_.observer(record);
 
-  if (failures_in_a_row_ >= failures_in_a_row_allowed) {
+  if (failures_in_a_row_ >= failures_in_a_row_allowed && 2 * failures_in_a_row_ >= evaluations_) {
     throw SearchFailed(
         fmt::format("the search failed: {} evaluations in a row failed, the last with {}",
                     failures_in_a_row_, last_failure_));

@@ -67,7 +67,9 @@ class SearchFailed : public std::runtime_error {
 /// ignored.
 class Evaluator {
  public:
-  /// After this many failures with no success in between the search is given up as failed.
+  /// After this many failures with no success in between, where they are at least half of all
+  /// evaluations, the search is given up as failed. (A local search beside a region of failures may
+  /// meet as many late in a search that is going well.)
   static constexpr int failures_in_a_row_allowed = 20;
 
   /// @param problem  used by reference

@@ -99,9 +99,9 @@ TEST_P(EveryMethod, TakesTheSamePathWithTheSameSeed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ChainedSearch, EveryMethod,
-                         testing::Values("auto", "direct_l+nelder_mead", "direct_l+bobyqa",
-                                         "crs2+sbplx", "crs2+cobyla", "direct_l", "crs2", "sbplx",
-                                         "bobyqa"),
+                         testing::Values("auto", "direct_l+sbplx", "direct_l+nelder_mead",
+                                         "direct_l+bobyqa", "crs2+sbplx", "crs2+cobyla", "direct_l",
+                                         "crs2", "sbplx", "bobyqa"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), '+', '_');
@@ -111,14 +111,15 @@ INSTANTIATE_TEST_SUITE_P(ChainedSearch, EveryMethod,
 struct Goal {
   TestProblem problem;
   int budget;
-  double gap;  ///< to the known minimum, twice to five times what the search reached when written
+  double
+      gap;  ///< to the known minimum; the search reached less than half of it when this was written
 };
 
 TEST(ChainedSearch, ComesCloseToKnownOptima) {
   const std::vector<Goal> goals{
       {rotated_bowl(), 60, 1e-3},     {rotated_bowl(), 150, 1e-5}, {branin(), 100, 1e-4},
-      {rastrigin(), 300, 1e-4},       {plateau(), 150, 1e-2},      {nan_region(), 150, 1e-4},
-      {throwing_region(), 150, 1e-4}, {levy(4), 150, 1e-3},        {coupled_bowl(), 150, 0.05},
+      {rastrigin(), 300, 1e-4},       {plateau(), 150, 1e-3},      {nan_region(), 150, 1e-4},
+      {throwing_region(), 150, 1e-4}, {levy(4), 150, 1e-3},        {coupled_bowl(), 150, 1e-4},
       {hartmann(), 150, 5e-3},        {one_variable(), 60, 1e-2}};
   for (const Goal& goal : goals) {
     SCOPED_TRACE(goal.problem.name);
@@ -269,8 +270,8 @@ TEST(SearchMethod, ReadsNames) {
                      const std::string& local) {
     return method.global == global && method.local == local;
   };
-  EXPECT_TRUE(is(search_method("auto", 1), "direct_l", "sbplx"));
-  EXPECT_TRUE(is(search_method("auto", 6), "direct_l", "sbplx"));
+  EXPECT_TRUE(is(search_method("auto", 2), "direct_l", "sbplx"));
+  EXPECT_TRUE(is(search_method("auto", 3), "direct_l", "nelder_mead"));
   EXPECT_TRUE(is(search_method("crs2+cobyla", 2), "crs2", "cobyla"));
   EXPECT_TRUE(is(search_method("crs2", 2), "crs2", ""));
   EXPECT_TRUE(is(search_method("bobyqa", 2), "", "bobyqa"));

@@ -190,6 +190,18 @@ TEST(Evaluator, GivesUpAfterTooManyFailuresInARow) {
   EXPECT_EQ(records, 2 * allowed);
 }
 
+TEST(Evaluator, BearsFailuresInARowLateInASearch) {
+  TestProblem problem = linear();
+  problem.function = [](int, const Eigen::VectorXd& x) -> double {
+    if (x[0] < 0.0) throw std::runtime_error("no light");
+    return x[0];
+  };
+  Evaluator evaluator(problem, {.budget = 1000});
+  for (int i = 1; i <= 100; ++i) evaluator(at(i, 0.0));
+  for (int i = 1; i < 100; ++i) EXPECT_NO_THROW(evaluator(at(-i, 0.0)));
+  EXPECT_THROW(evaluator(at(-100.0, 0.0)), SearchFailed);
+}
+
 TEST(Evaluator, LetsTheObserversExceptionsThrough) {
   TestProblem problem = linear();
   Evaluator evaluator(problem, {.observer = [](const auto&) { throw std::domain_error("full"); }});
