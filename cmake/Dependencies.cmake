@@ -11,7 +11,8 @@ find_dependency(fmt)
 find_dependency(SQLite3)
 pkg_check_modules(FFTW QUIET IMPORTED_TARGET fftw3)
 pkg_check_modules(FFTWF QUIET IMPORTED_TARGET fftw3f)
-# Debian has a CMake package of NLopt's C and one of its C++ library under one name; this is the C one.
+# Not find_package: Debian has one CMake package of NLopt's C library and one of its C++ library
+# under the same name.
 pkg_check_modules(NLOPT QUIET IMPORTED_TARGET nlopt)
 pkg_check_modules(CFITSIO QUIET IMPORTED_TARGET cfitsio)
 foreach(library FFTW FFTWF NLOPT CFITSIO)

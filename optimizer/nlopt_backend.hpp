@@ -25,16 +25,16 @@ SearchScope nlopt_scope(std::string_view algorithm, int variable_count);
 struct StageOptions {
   int max_evaluations = 100;  ///< new evaluations of this run at most, at least 1
   double x_tolerance = 1e-3;  ///< converged below this, fraction of each variable's range
-  double initial_step =
-      0.1;                 ///< of local algorithms, fraction of each variable's range, at most 0.5
+  /// Of local algorithms, fraction of each variable's range, at most 0.5.
+  double initial_step = 0.1;
   std::uint64_t seed = 1;  ///< of algorithms that draw random numbers; NLopt uses its low 32 bits
 };
 
 /// What became of one run. The best design is the evaluator's to tell.
 struct StageResult {
   int evaluations = 0;  ///< new ones
-  bool finished =
-      false;  ///< it ended by itself (tolerance, rounding): a higher limit changes nothing
+  /// It ended by itself (tolerance, rounding): a higher limit changes nothing.
+  bool finished = false;
 };
 
 /// Minimises the cost of one choice with an algorithm of NLopt (see nlopt_scope for the names). The
