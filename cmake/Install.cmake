@@ -1,9 +1,6 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nlcwfs)
-if(TARGET nlcwfs)
-  install(TARGETS nlcwfs)
-endif()
 install(EXPORT nlcwfsTargets NAMESPACE nlcwfs:: DESTINATION ${package_dir})
 file(READ cmake/Dependencies.cmake dependencies)
 configure_package_config_file(cmake/nlcwfsConfig.cmake.in nlcwfsConfig.cmake

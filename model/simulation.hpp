@@ -49,6 +49,8 @@ class Simulation {
 
   const Telescope& telescope() const { return telescope_; }
   int screen_count() const { return static_cast<int>(screens_.size()); }
+  /// Samples of the true field across the diameter.
+  int truth_samples() const { return static_cast<int>(mask_.rows()); }
 
  private:
   Telescope telescope_;

@@ -47,6 +47,11 @@ std::pair<std::string_view, std::string_view> section_and_name(const Configurati
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
+/// The source without the line of a file: a layer's values override those of the layers before it.
+std::string_view layer_of(std::string_view source) {
+  return source.substr(0, source.rfind(", line "));
+}
+
 }  // namespace
 
 bool Bounds::contain(double value) const {
@@ -230,7 +235,7 @@ void Configuration::set(std::string_view key, std::string_view value, std::strin
     for (const std::string_view other : seeing_measures) {
       if (other == key || !is_set(other)) continue;
       Value& rival = values_.at(index_of(other));
-      if (rival.source != default_source) {
+      if (layer_of(rival.source) == layer_of(source)) {
         throw InputError(
             key, shown,
             fmt::format("set only one of {} ({} is set to {} {})", fmt::join(seeing_measures, ", "),

@@ -71,7 +71,8 @@ const std::vector<Preset>& presets();
 /// A value for every key, with where it came from. A later value replaces an earlier one, so the
 /// layers are applied from the weakest to the strongest: defaults, preset, files, command line.
 /// Values are checked as they are set; what holds between keys is the physics' business, except
-/// that exactly one of seeing.d_over_r0, seeing.fried_parameter and seeing.fwhm is set at any time.
+/// that exactly one of seeing.d_over_r0, seeing.fried_parameter and seeing.fwhm is set at any time:
+/// setting one unsets another that an earlier layer has set.
 ///
 /// Two configurations are equal if their values are, wherever they came from.
 /// Asking for a key that the table does not have, or with the getter of another kind, is a caller's
@@ -90,7 +91,7 @@ class Configuration {
 
   /// @param source  for messages: "in my.cfg, line 3", "on the command line"
   /// @throws InputError for an unknown key, a value that is not allowed, or a second measure of the
-  ///         seeing
+  ///         seeing from the same file or command line
   void set(std::string_view key, std::string_view value, std::string_view source);
 
   double number(std::string_view key) const;

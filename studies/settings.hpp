@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string_view>
-#include <vector>
-
 #include "model/seeing.hpp"
 #include "model/sensor_design.hpp"
 #include "model/simulation.hpp"
@@ -11,6 +7,10 @@
 #include "objectives/design_cost.hpp"
 #include "objectives/plane_layout.hpp"
 #include "studies/configuration.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace nlcwfs {
 
@@ -35,13 +35,17 @@ std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
 
 SimulationOptions simulation_options_of(const Configuration& configuration);
 
-/// The simulation that the sections screens and simulation describe. Screens from a file whose
-/// sampling is not the truth's are resampled, and a note says so.
+/// The wavefronts of the section screens, simulated or from a file, at the truth's samples.
+/// @param notes  gets a line where screens had to be resampled
+std::vector<PhaseScreen> screens_of(const Configuration& configuration,
+                                    std::vector<std::string>& notes);
+
+/// The simulation of the sections screens and simulation; notes as above.
 Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes);
 
-/// The simulation that results are verified in: verify.screens fresh ones of verify.seed, on a truth
-/// verify.truth_factor times as fine, in double precision. A matched truth that is refined no longer
-/// matches the reconstruction's grid, so it becomes an extended one.
-Simulation verification_of(const Configuration& configuration, const SensorDesign& design);
+/// The simulation that results are verified in: verify.screens fresh screens of verify.seed, on a
+/// truth verify.truth_factor times as fine, in double precision. A matched truth that is refined no
+/// longer matches the reconstruction's grid, so it becomes an extended one.
+Simulation verification_of(const Configuration& configuration);
 
 }  // namespace nlcwfs

@@ -1,0 +1,109 @@
+#include "studies/design_text.hpp"
+
+#include "studies/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+constexpr double least_captured_energy = 0.9;
+
+/// A Fresnel number without more digits than it means; the pupil's own is infinite.
+std::string fresnel_text(double fresnel_number) {
+  return std::isfinite(fresnel_number) ? fmt::format("{:.3g}", fresnel_number) : "-";
+}
+
+}  // namespace
+
+std::string with_error(const MeanAndError& value) {
+  // The second digit of the error, for errors from the size of the mean to a millionth of it.
+  const int decimals =
+      value.standard_error > 0.0
+          ? std::clamp(1 - static_cast<int>(std::floor(std::log10(value.standard_error))), 0, 9)
+          : 2;
+  return fmt::format("{:.{}f} +- {:.{}f}", value.mean, decimals, value.standard_error, decimals);
+}
+
+std::string telescope_line(const Telescope& telescope, const Seeing& seeing) {
+  std::string line = fmt::format(
+      "{} telescope at {}, D/r0 = {:.4g} (r0 = {}, its Talbot distance {})",
+      format_length(telescope.diameter), format_length(telescope.wavelength),
+      telescope.diameter / seeing.fried_parameter, format_length(seeing.fried_parameter),
+      format_length(talbot_distance(seeing.fried_parameter, telescope.wavelength)));
+  if (seeing.outer_scale) line += ", outer scale " + format_length(*seeing.outer_scale);
+  return line;
+}
+
+std::string planes_table(const SensorDesign& design, const Telescope& telescope,
+                         const Seeing& seeing, const Performance* performance) {
+  const double talbot = talbot_distance(seeing.fried_parameter, telescope.wavelength);
+  const auto& relay = telescope.relay_beam_diameter;
+  std::string table = fmt::format("  {:>8} {:>12} {:>18} {:>15}", "visited", "distance",
+                                  "Talbot distances", "Fresnel number");
+  if (relay) table += fmt::format(" {:>12}", "on the bench");
+  if (performance != nullptr) table += fmt::format(" {:>15}", "light captured");
+  table += '\n';
+  const std::vector<double> captured =
+      performance != nullptr ? performance->captured_energy() : std::vector<double>{};
+  for (std::size_t plane = 0; plane < design.planes.size(); ++plane) {
+    const double z = design.planes[plane];
+    table += fmt::format("  {:>8} {:>12} {:>18.3f} {:>15}", plane + 1, format_length(z), z / talbot,
+                         fresnel_text(fresnel_number(telescope, z)));
+    if (relay) table += fmt::format(" {:>12}", format_length(bench_distance(z, telescope)));
+    if (performance != nullptr) table += fmt::format(" {:>13.1f} %", 100.0 * captured[plane]);
+    table += '\n';
+  }
+  return table;
+}
+
+std::string performance_table(const std::vector<PerformanceColumn>& columns) {
+  struct Row {
+    std::string_view metric;
+    std::string_view heading;
+  };
+  static constexpr std::array<Row, 7> rows{{{"residual_wfe_nm", "residual WFE, nm"},
+                                            {"wrapped_wfe_nm", "wrapped WFE, nm"},
+                                            {"total_wfe_nm", "total WFE, nm"},
+                                            {"field_strehl", "field-estimated Strehl"},
+                                            {"loops", "loops"},
+                                            {"fractional_loops", "fractional loops"},
+                                            {"seconds", "seconds per wavefront"}}};
+  std::string table = fmt::format("  {:<24}", "");
+  for (const PerformanceColumn& column : columns) table += fmt::format(" {:>22}", column.heading);
+  for (const Row& row : rows) {
+    table += fmt::format("\n  {:<24}", row.heading);
+    for (const PerformanceColumn& column : columns) {
+      table += fmt::format(" {:>22}",
+                           with_error(column.performance->mean_of(performance_metric(row.metric))));
+    }
+  }
+  table += fmt::format("\n  {:<24}", "converged");
+  for (const PerformanceColumn& column : columns) {
+    table += fmt::format(" {:>20.1f} %", 100.0 * column.performance->converged_fraction());
+  }
+  table += fmt::format("\n  {:<24}", "cost");
+  for (const PerformanceColumn& column : columns) {
+    table += fmt::format(" {:>22}", with_error(mean_and_standard_error(column.costs)));
+  }
+  return table + '\n';
+}
+
+std::string captured_energy_warnings(const SensorDesign& design, const Performance& performance) {
+  std::string warnings;
+  const std::vector<double> captured = performance.captured_energy();
+  for (std::size_t plane = 0; plane < captured.size(); ++plane) {
+    if (captured[plane] >= least_captured_energy) continue;
+    warnings += fmt::format(
+        "warning: the detector's window ({:g} pupil diameters) catches only {:.1f} % of the light "
+        "at {}\n",
+        design.detector.window, 100.0 * captured[plane], format_length(design.planes[plane]));
+  }
+  return warnings;
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "model/performance.hpp"
+#include "model/seeing.hpp"
+#include "model/sensor_design.hpp"
+#include "model/telescope.hpp"
+
+#include <string>
+#include <vector>
+
+namespace nlcwfs {
+
+/// "0.52 +- 0.03": a mean with its standard error, to the error's second digit.
+std::string with_error(const MeanAndError& value);
+
+/// One line: "0.5 m telescope at 532 nm, D/r0 = 4 (r0 = 12.5 cm, Talbot distance 58.74 km)".
+std::string telescope_line(const Telescope& telescope, const Seeing& seeing);
+
+/// A table of the planes in visiting order: km, Talbot distances of r0, Fresnel numbers, distance
+/// on the bench behind a relay, captured light where the performance is known.
+std::string planes_table(const SensorDesign& design, const Telescope& telescope,
+                         const Seeing& seeing, const Performance* performance = nullptr);
+
+/// A column of a performance table.
+struct PerformanceColumn {
+  std::string heading;
+  const Performance* performance;
+  std::vector<double> costs;  ///< of each screen
+};
+
+/// A table of the metrics that people look at first, one column per design.
+std::string performance_table(const std::vector<PerformanceColumn>& columns);
+
+/// A line for each plane whose window catches less than 90 % of the light; empty where none does.
+std::string captured_energy_warnings(const SensorDesign& design, const Performance& performance);
+
+}  // namespace nlcwfs

@@ -1,0 +1,69 @@
+#include "results/csv_table.hpp"
+#include "results/design_summary.hpp"
+#include "studies/design_text.hpp"
+#include "studies/run_record.hpp"
+#include "studies/settings.hpp"
+#include "studies/studies.hpp"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+/// One row per screen, one column per metric.
+std::string screens_table(const Performance& performance) {
+  std::vector<std::string> columns{"screen"};
+  for (const PerformanceMetric& metric : performance_metrics()) columns.emplace_back(metric.name);
+  columns.emplace_back("converged");
+  CsvTable table(columns);
+  double number = 0;
+  for (const ScreenPerformance& screen : performance.screens) {
+    table.row().add(number++);
+    for (const PerformanceMetric& metric : performance_metrics()) table.add(metric(screen));
+    table.add(screen.converged ? 1.0 : 0.0);
+  }
+  return table.text();
+}
+
+}  // namespace
+
+void run_evaluate(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  const Telescope telescope = telescope_of(configuration);
+  const Seeing seeing = seeing_of(configuration, telescope);
+  std::vector<std::string> notes;
+  const Simulation simulation = simulation_of(configuration, notes);
+  const SensorDesign design = simulation.checked(design_of(configuration));
+  const DesignCost cost = cost_of(configuration);
+  RunRecord record(command_line);
+
+  const auto start = std::chrono::steady_clock::now();
+  const Performance performance = simulation.evaluate(design);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+
+  nlohmann::ordered_json json = to_json(design, telescope, seeing.fried_parameter);
+  const std::vector<double> costs = cost.per_screen(performance, design);
+  record.archive().add({.stage = "evaluate",
+                        .design = json.dump(),
+                        .cost = mean_and_standard_error(costs).mean,
+                        .failure = "",
+                        .seconds = elapsed.count(),
+                        .performance = to_json(performance).dump()});
+  json["cost"] = to_json(mean_and_standard_error(costs));
+  json["performance"] = to_json(performance);
+  record.folder().write("screens.csv", screens_table(performance));
+  record.write_summary({{"design", json}});
+
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
+  fmt::print("{}\n\n", telescope_line(telescope, seeing));
+  fmt::print("{}\n", planes_table(design, telescope, seeing, &performance));
+  fmt::print("On {} screens, {} truth:\n{}", performance.screens.size(),
+             configuration.choice("simulation.truth"),
+             performance_table({{"mean +- standard error", &performance, costs}}));
+  fmt::print("{}", captured_energy_warnings(design, performance));
+  fmt::print("\n{}\n", record.closing_line());
+}
+
+}  // namespace nlcwfs

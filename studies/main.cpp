@@ -1,0 +1,62 @@
+#include "model/input_error.hpp"
+#include "results/output_folder.hpp"
+#include "studies/command_line.hpp"
+#include "studies/studies.hpp"
+#include "studies/text.hpp"
+#include "studies/version.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+namespace {
+
+enum ExitCode { done = 0, run_failed = 1, bad_input = 2 };
+
+void run(int argc, const char* const* argv) {
+  using namespace nlcwfs;
+  const CommandLine command_line = parse_command_line(argc, argv);
+  if (command_line.version) {
+    fmt::print("nlcwfs {}\n", version());
+    return;
+  }
+  if (command_line.help) {
+    fmt::print("{}", help_text(command_line.command));
+    return;
+  }
+  if (command_line.dump_config) {
+    fmt::print("{}", command_line.configuration.dump());
+    return;
+  }
+  if (command_line.output) OutputFolder::require_free(*command_line.output);
+  const int threads =
+      command_line.threads > 0 ? command_line.threads : tbb::this_task_arena::max_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  static const std::map<std::string, std::function<void(const CommandLine&)>> studies{
+      {"evaluate", run_evaluate},
+      {"optimize", run_optimize},
+      {"scale", run_scale},
+      {"screens", run_screens}};
+  studies.at(command_line.command)(command_line);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    run(argc, argv);
+    return done;
+  } catch (const nlcwfs::InputError& error) {
+    fmt::print(stderr, "nlcwfs: {}\n", nlcwfs::one_line(error.what()));
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "nlcwfs: failed: {}\n", nlcwfs::one_line(error.what()));
+    return run_failed;
+  }
+}

@@ -1,0 +1,247 @@
+#include "model/input_error.hpp"
+#include "objectives/placement_problem.hpp"
+#include "objectives/verified_design.hpp"
+#include "optimizer/chained_search.hpp"
+#include "results/csv_table.hpp"
+#include "results/design_summary.hpp"
+#include "studies/design_text.hpp"
+#include "studies/progress_line.hpp"
+#include "studies/run_record.hpp"
+#include "studies/settings.hpp"
+#include "studies/studies.hpp"
+#include "studies/units.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What the configuration asks for, checked as a whole before anything is written.
+struct Task {
+  explicit Task(const Configuration& configuration);
+
+  Telescope telescope;
+  Seeing seeing;
+  std::vector<std::string> notes;
+  Simulation simulation;
+  Simulation verification;
+  SensorDesign design;  ///< what the search varies the planes of
+  SensorDesign baseline;
+  DesignCost cost;
+  std::unique_ptr<PlaneLayout> layout;
+  SearchOptions search;
+};
+
+Task::Task(const Configuration& configuration)
+    : telescope(telescope_of(configuration)),
+      seeing(seeing_of(configuration, telescope)),
+      simulation(simulation_of(configuration, notes)),
+      verification(verification_of(configuration)),
+      design(simulation.checked(design_of(configuration))),
+      baseline(simulation.checked(baseline_of(configuration))),
+      cost(cost_of(configuration)),
+      layout(layout_of(configuration, telescope)) {
+  verification.checked(design);
+  verification.checked(baseline);
+  if (!configuration.text("screens.file").empty()) {
+    notes.push_back("the verification is on simulated screens of the configured seeing");
+  }
+
+  search.optimizer = configuration.text("search.optimizer");
+  search.seed = configuration.seed("search.seed");
+  search.evaluation.budget = configuration.integer("search.budget");
+  search.evaluation.time_limit = configuration.optional_time("search.time_limit");
+  try {
+    search_method(search.optimizer, static_cast<int>(layout->variables().size()));
+  } catch (const std::invalid_argument& error) {
+    throw InputError("search.optimizer", search.optimizer, error.what());
+  }
+  // The user's own designs are tried first.
+  for (const SensorDesign* known : {&design, &baseline}) {
+    if (const auto point = layout->point_of(known->planes)) search.starts.push_back(*point);
+  }
+}
+
+/// Watches a search: archive, table and progress line.
+class SearchLog {
+ public:
+  SearchLog(const Task& task, const PlacementProblem& problem, RunRecord& record, bool quiet)
+      : task_(task), problem_(problem), record_(record), progress_(quiet) {}
+
+  void add(const EvaluationRecord& evaluation) {
+    const SensorDesign design = problem_.design(evaluation.point);
+    const Performance& performance = problem_.last_performance();
+    const bool failed = !evaluation.failure.empty();
+    record_.archive().add(
+        {.stage = "search",
+         .design = to_json(design, task_.telescope, task_.seeing.fried_parameter).dump(),
+         .cost = evaluation.cost,
+         .failure = evaluation.failure,
+         .seconds = evaluation.seconds,
+         .performance = failed ? "" : to_json(performance).dump()});
+
+    table_.row().add(evaluation.index).add(evaluation.key).add(evaluation.cost);
+    for (const char* metric : {"residual_wfe_nm", "fractional_loops"}) {
+      if (failed) {
+        table_.add("");
+      } else {
+        table_.add(performance.mean_of(performance_metric(metric)).mean);
+      }
+    }
+    table_.add(evaluation.failure);
+    show_progress(evaluation);
+  }
+
+  std::string table() const { return table_.text(); }
+
+ private:
+  void show_progress(const EvaluationRecord& evaluation) {
+    const EvaluatorOptions& limits = task_.search.evaluation;
+    const double elapsed = seconds_since(start_);
+    double left = elapsed / evaluation.index * (limits.budget - evaluation.index);
+    if (limits.time_limit) left = std::min(left, std::max(0.0, *limits.time_limit - elapsed));
+    progress_.show(
+        fmt::format("search: design {} of {}, lowest cost {:.4g}, {} left, then the "
+                    "verification",
+                    evaluation.index, limits.budget, evaluation.best_cost, duration_text(left)));
+  }
+
+  const Task& task_;
+  const PlacementProblem& problem_;
+  RunRecord& record_;
+  ProgressLine progress_;
+  Clock::time_point start_ = Clock::now();
+  CsvTable table_{
+      {"evaluation", "planes_m", "cost", "residual_wfe_nm", "fractional_loops", "failure"}};
+};
+
+VerifiedDesign verify_and_archive(const SensorDesign& design, std::string_view name,
+                                  const Task& task, RunRecord& record, bool quiet) {
+  ProgressLine progress(quiet);
+  progress.show(
+      fmt::format("verification: {} on {} fresh screens", name, task.verification.screen_count()));
+  const auto start = Clock::now();
+  VerifiedDesign verified = verify(design, task.verification, task.cost);
+  record.archive().add(
+      {.stage = "verify",
+       .design = to_json(design, task.telescope, task.seeing.fried_parameter).dump(),
+       .cost = mean_and_standard_error(verified.costs).mean,
+       .failure = "",
+       .seconds = seconds_since(start),
+       .performance = to_json(verified.performance).dump()});
+  return verified;
+}
+
+Json design_object(const VerifiedDesign& verified, const Task& task) {
+  Json json = to_json(verified.design, task.telescope, task.seeing.fried_parameter);
+  json["cost"] = to_json(mean_and_standard_error(verified.costs));
+  json["performance"] = to_json(verified.performance);
+  return json;
+}
+
+Json stages_array(const SearchResult& result) {
+  Json stages = Json::array();
+  for (const SearchStage& stage : result.stages) {
+    stages.push_back({{"name", stage.name}, {"evaluations", stage.evaluations}});
+  }
+  return stages;
+}
+
+std::string verdict_text(const Improvement& improvement, const VerifiedDesign& baseline) {
+  switch (improvement.verdict) {
+    case Verdict::better:
+      return fmt::format(
+          "The best design beats the baseline: it costs {} less ({:.0f} %), screen by screen.",
+          with_error(improvement.cost),
+          100.0 * improvement.cost.mean / mean_and_standard_error(baseline.costs).mean);
+    case Verdict::indistinguishable:
+      return fmt::format(
+          "The baseline is NOT beaten: on fresh screens the best design costs {} less, which is "
+          "within two standard errors of nothing.",
+          with_error(improvement.cost));
+    case Verdict::worse:
+      break;
+  }
+  return fmt::format(
+      "The baseline is NOT beaten: on fresh screens the best design costs {} more. It was the best "
+      "only on the screens of the search; search on more of them (screens.count).",
+      with_error({-improvement.cost.mean, improvement.cost.standard_error}));
+}
+
+void print_result(const Task& task, const SearchResult& result, double search_seconds,
+                  const VerifiedDesign& best, const VerifiedDesign& baseline,
+                  const Improvement& gain) {
+  for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
+  fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
+  fmt::print("Searched {} designs on {} screens in {} ({}{}).\n\n", result.evaluations,
+             task.simulation.screen_count(), duration_text(search_seconds),
+             to_string(result.termination),
+             result.failures > 0 ? fmt::format(", {} failed", result.failures) : "");
+  fmt::print("Best design, planes in visiting order:\n{}\n",
+             planes_table(best.design, task.telescope, task.seeing, &best.performance));
+  fmt::print("Baseline:\n{}\n",
+             planes_table(baseline.design, task.telescope, task.seeing, &baseline.performance));
+  fmt::print("Both on the same {} fresh screens, true field {} samples across the pupil:\n{}",
+             task.verification.screen_count(), task.verification.truth_samples(),
+             performance_table({{"best design", &best.performance, best.costs},
+                                {"baseline", &baseline.performance, baseline.costs}}));
+  fmt::print("\n{}\n{}", verdict_text(gain, baseline),
+             captured_energy_warnings(best.design, best.performance));
+}
+
+}  // namespace
+
+void run_optimize(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  const Task task(configuration);
+  RunRecord record(command_line);
+
+  const auto start = Clock::now();
+  PlacementProblem problem(task.simulation, *task.layout, task.design, task.cost);
+  SearchLog log(task, problem, record, command_line.quiet);
+  SearchOptions options = task.search;
+  options.evaluation.observer = [&](const EvaluationRecord& evaluation) { log.add(evaluation); };
+  const SearchResult result = search(problem, options);
+  const double search_seconds = seconds_since(start);
+
+  const VerifiedDesign best = verify_and_archive(problem.design(result.best->point), "best design",
+                                                 task, record, command_line.quiet);
+  const VerifiedDesign baseline =
+      verify_and_archive(task.baseline, "baseline", task, record, command_line.quiet);
+  const Improvement gain = improvement(best, baseline);
+
+  Configuration best_configuration = configuration;
+  best_configuration.set("sensor.planes", fmt::format("{}", fmt::join(best.design.planes, ",")),
+                         "by the search");
+  record.folder().write("best.cfg", best_configuration.dump());
+  record.folder().write("search.csv", log.table());
+  record.write_summary(
+      {{"best", design_object(best, task)},
+       {"baseline", design_object(baseline, task)},
+       {"improvement", {{"cost", gain.cost.mean}, {"standard_error", gain.cost.standard_error}}},
+       {"best_cost_in_search", result.best->cost},
+       {"evaluations", result.evaluations},
+       {"failures", result.failures},
+       {"reconstructions", (result.evaluations - result.failures) * task.simulation.screen_count() +
+                               2 * task.verification.screen_count()},
+       {"wall_seconds", seconds_since(start)},
+       {"search_seconds", search_seconds},
+       {"termination", to_string(result.termination)},
+       {"stages", stages_array(result)}});
+  print_result(task, result, search_seconds, best, baseline, gain);
+  fmt::print("{}\n", record.closing_line());
+}
+
+}  // namespace nlcwfs

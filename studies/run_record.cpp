@@ -1,0 +1,34 @@
+#include "studies/run_record.hpp"
+
+#include "studies/version.hpp"
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+
+RunRecord::RunRecord(const CommandLine& command_line)
+    : command_line_(command_line),
+      folder_(command_line.output, command_line.command),
+      archive_(folder_.file("archive.sqlite")) {
+  folder_.write("config.cfg", command_line.configuration.dump());
+}
+
+void RunRecord::write_summary(const nlohmann::ordered_json& results) const {
+  nlohmann::ordered_json config;
+  for (const ConfigurationKey& key : configuration_keys()) {
+    const Configuration& configuration = command_line_.configuration;
+    config[key.name] = configuration.is_set(key.name)
+                           ? nlohmann::ordered_json(configuration.value_text(key.name))
+                           : nlohmann::ordered_json(nullptr);
+  }
+  nlohmann::ordered_json summary{
+      {"command", command_line_.command}, {"version", version()}, {"config", config}};
+  summary.update(results);
+  folder_.write("summary.json", summary.dump(2) + "\n");
+}
+
+std::string RunRecord::closing_line() const {
+  return fmt::format("Results are in {}.", folder_.path().string());
+}
+
+}  // namespace nlcwfs

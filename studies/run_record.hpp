@@ -1,0 +1,36 @@
+#pragma once
+
+#include "results/archive.hpp"
+#include "results/output_folder.hpp"
+#include "studies/command_line.hpp"
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace nlcwfs {
+
+/// What every run leaves in its output folder: config.cfg, archive.sqlite, summary.json.
+class RunRecord {
+ public:
+  /// Makes the folder with the configuration and an empty archive. Call it when nothing in the
+  /// input can be wrong any more.
+  explicit RunRecord(const CommandLine& command_line);
+
+  const OutputFolder& folder() const { return folder_; }
+  Archive& archive() { return archive_; }
+
+  /// Writes summary.json: command, version, config (every key with its text, null where not set),
+  /// then `results`.
+  void write_summary(const nlohmann::ordered_json& results) const;
+
+  /// "Results are in results/optimize-1."
+  std::string closing_line() const;
+
+ private:
+  const CommandLine& command_line_;
+  OutputFolder folder_;
+  Archive archive_;
+};
+
+}  // namespace nlcwfs

@@ -1,0 +1,83 @@
+#include "model/input_error.hpp"
+#include "results/design_summary.hpp"
+#include "studies/design_text.hpp"
+#include "studies/run_record.hpp"
+#include "studies/settings.hpp"
+#include "studies/studies.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+/// The telescope of the section scale; what is not set is as at the telescope that it comes from.
+Telescope scaled_telescope_of(const Configuration& configuration, Telescope telescope) {
+  const auto diameter = configuration.optional_length("scale.diameter");
+  const auto wavelength = configuration.optional_length("scale.wavelength");
+  const auto relay = configuration.optional_length("scale.relay_beam_diameter");
+  if (!diameter && !wavelength && !relay) {
+    throw InputError("scale.diameter", "(nothing)",
+                     "set scale.diameter, scale.wavelength or scale.relay_beam_diameter, such as "
+                     "--scale.diameter 8.2m");
+  }
+  telescope.diameter = diameter.value_or(telescope.diameter);
+  telescope.wavelength = wavelength.value_or(telescope.wavelength);
+  telescope.relay_beam_diameter = relay;
+  telescope.validate();
+  return telescope;
+}
+
+}  // namespace
+
+void run_scale(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  const Telescope telescope = telescope_of(configuration);
+  const Seeing seeing = seeing_of(configuration, telescope);
+  const SensorDesign design = design_of(configuration);
+  design.validate(telescope);
+  const Telescope target = scaled_telescope_of(configuration, telescope);
+  const double size_ratio = target.diameter / telescope.diameter;
+  // Equal D/r0 and equal outer scale in diameters: the same turbulence for the larger beam.
+  Seeing target_seeing{.fried_parameter = seeing.fried_parameter * size_ratio};
+  if (seeing.outer_scale) target_seeing.outer_scale = *seeing.outer_scale * size_ratio;
+  SensorDesign scaled = design;
+  for (double& plane : scaled.planes) plane = scaled_distance(plane, telescope, target);
+  // Tolerances are optical path; equal designs are equal in waves.
+  scaled.reconstruction.tolerance *= target.wavelength / telescope.wavelength;
+  RunRecord record(command_line);
+
+  Configuration scaled_configuration = configuration;
+  const auto set = [&](std::string_view key, const std::string& value) {
+    scaled_configuration.set(key, value, "by scale");
+  };
+  set("telescope.diameter", fmt::format("{}", target.diameter));
+  set("telescope.wavelength", fmt::format("{}", target.wavelength));
+  if (target.relay_beam_diameter) {
+    set("telescope.relay_beam_diameter", fmt::format("{}", *target.relay_beam_diameter));
+  }
+  set("seeing.d_over_r0", fmt::format("{}", target.diameter / target_seeing.fried_parameter));
+  if (target_seeing.outer_scale) {
+    set("seeing.outer_scale", fmt::format("{}", *target_seeing.outer_scale));
+  }
+  set("sensor.planes", fmt::format("{}", fmt::join(scaled.planes, ",")));
+  set("reconstruction.tolerance", fmt::format("{}", scaled.reconstruction.tolerance));
+  record.folder().write("scaled.cfg", scaled_configuration.dump());
+  record.write_summary({{"design", to_json(design, telescope, seeing.fried_parameter)},
+                        {"scaled", to_json(scaled, target, target_seeing.fried_parameter)},
+                        {"scaled_telescope",
+                         {{"diameter_m", target.diameter},
+                          {"wavelength_m", target.wavelength},
+                          {"fried_parameter_m", target_seeing.fried_parameter}}}});
+
+  fmt::print("From: {}\n{}\n", telescope_line(telescope, seeing),
+             planes_table(design, telescope, seeing));
+  fmt::print("To: {}\n{}\n", telescope_line(target, target_seeing),
+             planes_table(scaled, target, target_seeing));
+  fmt::print(
+      "Equal Fresnel numbers and D/r0: the same loops, and the same wavefront error in waves\n"
+      "(in nm it is multiplied by {:.4g}). scaled.cfg evaluates the new design.\n{}\n",
+      target.wavelength / telescope.wavelength, record.closing_line());
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,98 @@
+#include "model/pupil.hpp"
+#include "model/screen_statistics.hpp"
+#include "results/csv_table.hpp"
+#include "results/design_summary.hpp"
+#include "results/fits_cube.hpp"
+#include "studies/design_text.hpp"
+#include "studies/run_record.hpp"
+#include "studies/settings.hpp"
+#include "studies/studies.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+/// Measured and expected structure function along rows, columns and diagonals.
+std::string structure_function_table(const std::vector<PhaseScreen>& screens, double pitch,
+                                     const Seeing& seeing) {
+  CsvTable table({"direction", "separation_m", "structure_function_rad2", "standard_error_rad2",
+                  "expected_rad2"});
+  struct Direction {
+    const char* name;
+    int rows;
+    int columns;
+  };
+  const auto samples = static_cast<int>(screens.front().rows());
+  for (const Direction& direction :
+       {Direction{"row", 0, 1}, {"column", 1, 0}, {"diagonal", 1, 1}, {"antidiagonal", 1, -1}}) {
+    for (int step = 1; step < samples; ++step) {
+      const MeanAndError measured = structure_function(
+          screens, {.rows = step * direction.rows, .columns = step * direction.columns});
+      const double separation = step * std::hypot(direction.rows, direction.columns) * pitch;
+      table.row()
+          .add(direction.name)
+          .add(separation)
+          .add(measured.mean)
+          .add(measured.standard_error)
+          .add(von_karman_structure_function(separation, seeing));
+    }
+  }
+  return table.text();
+}
+
+void remove_piston(PhaseScreen& screen, const PupilMask& mask) {
+  screen -= mask.select(screen, 0.0).sum() / double(mask.count());
+}
+
+}  // namespace
+
+void run_screens(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  const Telescope telescope = telescope_of(configuration);
+  const Seeing seeing = seeing_of(configuration, telescope);
+  std::vector<std::string> notes;
+  std::vector<PhaseScreen> screens = screens_of(configuration, notes);
+  RunRecord record(command_line);
+
+  const auto samples = static_cast<int>(screens.front().rows());
+  const PupilMask mask = pupil_mask(samples, telescope.central_obscuration);
+  for (PhaseScreen& screen : screens) remove_piston(screen, mask);
+  const MeanAndError variance = piston_removed_variance(screens, mask);
+  const MeanAndError tilt_removed = tilt_removed_variance(screens, mask);
+  const double expected = noll_piston_removed_variance(telescope.diameter, seeing.fried_parameter);
+  const double expected_tilt_removed =
+      noll_tilt_removed_variance(telescope.diameter, seeing.fried_parameter);
+
+  std::vector<FitsKeyword> keywords{
+      {"DIAMETER", telescope.diameter, "[m] pupil diameter = width of the square"},
+      {"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"},
+      {"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"},
+      {"SEED", configuration.seed("screens.seed"), "seed of the screens"}};
+  if (seeing.outer_scale) keywords.push_back({"L0", *seeing.outer_scale, "[m] outer scale"});
+  record.folder().write("structure_function.csv",
+                        structure_function_table(screens, telescope.diameter / samples, seeing));
+  const std::size_t count = screens.size();
+  write_fits_cube(record.folder().file("screens.fits"), {"rad", std::move(screens)}, keywords);
+  record.write_summary({{"screens", count},
+                        {"samples", samples},
+                        {"fried_parameter_m", seeing.fried_parameter},
+                        {"piston_removed_variance_rad2", to_json(variance)},
+                        {"tilt_removed_variance_rad2", to_json(tilt_removed)},
+                        {"kolmogorov_piston_removed_variance_rad2", expected},
+                        {"kolmogorov_tilt_removed_variance_rad2", expected_tilt_removed}});
+
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
+  fmt::print("{}\n\n{} screens of {} x {} samples in screens.fits, rad\n",
+             telescope_line(telescope, seeing), count, samples, samples);
+  fmt::print("  {:<34} {:>20} {:>12}\n", "variance over the pupil, rad^2", "these screens",
+             "Kolmogorov");
+  fmt::print("  {:<34} {:>20} {:>12.4g}\n", "piston removed", with_error(variance), expected);
+  fmt::print("  {:<34} {:>20} {:>12.4g}\n", "piston, tip and tilt removed",
+             with_error(tilt_removed), expected_tilt_removed);
+  fmt::print("\n{}\n", record.closing_line());
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,208 @@
+#include "studies/settings.hpp"
+
+#include "model/input_error.hpp"
+#include "model/screen_resampling.hpp"
+#include "model/turbulence_screen.hpp"
+#include "results/fits_cube.hpp"
+
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+/// One of a choice's values; `values` in the order in which the key lists its words.
+template <class Value>
+Value choice_of(const Configuration& configuration, std::string_view key,
+                std::initializer_list<std::pair<std::string_view, Value>> values) {
+  for (const auto& [word, value] : values) {
+    if (configuration.choice(key) == word) return value;
+  }
+  throw std::logic_error(fmt::format("{} has a choice without a meaning", key));
+}
+
+InitialGuess initial_guess_of(const Configuration& configuration, std::string_view key) {
+  return choice_of<InitialGuess>(
+      configuration, key, {{"flat", InitialGuess::flat}, {"centroid", InitialGuess::centroid}});
+}
+
+bool is_matched(const Configuration& configuration) {
+  return configuration.choice("simulation.truth") == "matched";
+}
+
+/// Samples of the true field across the pupil; a matched truth has the detector's.
+int truth_samples(const Configuration& configuration) {
+  return configuration.integer(is_matched(configuration) ? "detector.pupil_pixels"
+                                                         : "simulation.pupil_samples");
+}
+
+std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
+                                           int samples, std::vector<std::string>& notes) {
+  FitsCube cube = read_fits_cube(file, "screens.file");
+  double radians_per_unit = 1.0;
+  if (cube.unit == "m") {
+    radians_per_unit = 2.0 * std::numbers::pi / telescope.wavelength;
+  } else if (!cube.unit.empty() && cube.unit != "rad") {
+    throw InputError("screens.file", file,
+                     fmt::format("BUNIT must be 'rad' or 'm', but is '{}'", cube.unit));
+  }
+  const auto size = static_cast<int>(cube.slices.front().rows());
+  if (size < 2) throw InputError("screens.file", file, "at least 2 x 2 samples");
+  if (size != samples) {
+    notes.push_back(fmt::format("{}: {} x {} samples were resampled to the truth's {} x {}", file,
+                                size, size, samples, samples));
+  }
+  for (Image<double>& screen : cube.slices) {
+    screen *= radians_per_unit;
+    if (size != samples) screen = resampled_screen(screen, samples);
+  }
+  return std::move(cube.slices);
+}
+
+}  // namespace
+
+Telescope telescope_of(const Configuration& configuration) {
+  const Telescope telescope{
+      .diameter = configuration.length("telescope.diameter"),
+      .wavelength = configuration.length("telescope.wavelength"),
+      .central_obscuration = configuration.number("telescope.central_obscuration"),
+      .relay_beam_diameter = configuration.optional_length("telescope.relay_beam_diameter")};
+  telescope.validate();
+  return telescope;
+}
+
+Seeing seeing_of(const Configuration& configuration, const Telescope& telescope) {
+  Seeing seeing{.fried_parameter = 0.0,
+                .outer_scale = configuration.optional_length("seeing.outer_scale")};
+  if (configuration.is_set("seeing.d_over_r0")) {
+    seeing.fried_parameter = telescope.diameter / configuration.number("seeing.d_over_r0");
+  } else {
+    const double reference =
+        configuration.optional_length("seeing.reference_wavelength").value_or(telescope.wavelength);
+    const double fried_parameter =
+        configuration.is_set("seeing.fwhm")
+            ? fried_parameter_of_fwhm(configuration.number("seeing.fwhm"), reference)
+            : configuration.length("seeing.fried_parameter");
+    seeing.fried_parameter =
+        scaled_fried_parameter(fried_parameter, reference, telescope.wavelength);
+  }
+  seeing.validate();
+  return seeing;
+}
+
+SensorDesign design_of(const Configuration& configuration) {
+  const auto [relaxation_start, relaxation_end] = configuration.ramp("reconstruction.relaxation");
+  return {.planes = configuration.lengths("sensor.planes"),
+          .detector = {.pupil_pixels = configuration.integer("detector.pupil_pixels"),
+                       .window = configuration.number("detector.window"),
+                       .photons = configuration.number("detector.photons"),
+                       .read_noise = configuration.number("detector.read_noise")},
+          .reconstruction = {
+              .max_loops = configuration.integer("reconstruction.max_loops"),
+              .tolerance = configuration.length("reconstruction.tolerance"),
+              .stopping = choice_of<StoppingRule>(configuration, "reconstruction.stopping",
+                                                  {{"difference", StoppingRule::difference},
+                                                   {"rms_change", StoppingRule::rms_change}}),
+              .relaxation_start = relaxation_start,
+              .relaxation_end = relaxation_end,
+              .initial_guess = initial_guess_of(configuration, "reconstruction.initial_guess"),
+              .window = configuration.number("reconstruction.window"),
+              .outside = choice_of<OutsideDetector>(
+                  configuration, "reconstruction.outside",
+                  {{"free", OutsideDetector::free}, {"zero", OutsideDetector::zero}}),
+              .oversampling = configuration.integer("reconstruction.oversampling"),
+              .unwrapping = choice_of<UnwrappingMethod>(
+                  configuration, "reconstruction.unwrapping",
+                  {{"quality_guided", UnwrappingMethod::quality_guided},
+                   {"least_squares", UnwrappingMethod::least_squares}})}};
+}
+
+SensorDesign baseline_of(const Configuration& configuration) {
+  SensorDesign design = design_of(configuration);
+  const auto [relaxation_start, relaxation_end] = configuration.ramp("baseline.relaxation");
+  design.planes = configuration.lengths("baseline.planes");
+  design.reconstruction.relaxation_start = relaxation_start;
+  design.reconstruction.relaxation_end = relaxation_end;
+  design.reconstruction.initial_guess = initial_guess_of(configuration, "baseline.initial_guess");
+  return design;
+}
+
+DesignCost cost_of(const Configuration& configuration) {
+  return {.wfe = choice_of<WavefrontErrorKind>(configuration, "objective.wfe",
+                                               {{"residual", WavefrontErrorKind::residual},
+                                                {"wrapped", WavefrontErrorKind::wrapped},
+                                                {"total", WavefrontErrorKind::total}}),
+          .wfe_scale = configuration.length("objective.wfe_scale"),
+          .loop_weight = configuration.number("objective.loop_weight"),
+          .time_weight = configuration.number("objective.time_weight"),
+          .fft_rate = configuration.number("objective.fft_rate")};
+}
+
+std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
+                                       const Telescope& telescope) {
+  const auto [nearest, farthest] = default_distance_range(telescope);
+  if (configuration.choice("search.layout") == "symmetric") {
+    const DistanceRange both{nearest, farthest};
+    return std::make_unique<SymmetricLayout>(
+        telescope, configuration.length_range("search.z_near").value_or(both),
+        configuration.length_range("search.z_far").value_or(both));
+  }
+  std::vector<DistanceRange> ranges;
+  for (int plane = 1; plane <= configuration.integer("search.plane_count"); ++plane) {
+    ranges.push_back(configuration.length_range(fmt::format("search.z{}", plane))
+                         .value_or(DistanceRange{-farthest, farthest}));
+  }
+  return std::make_unique<FreeLayout>(telescope, std::move(ranges));
+}
+
+SimulationOptions simulation_options_of(const Configuration& configuration) {
+  return {.truth = is_matched(configuration) ? TruthModel::matched : TruthModel::extended,
+          .precision = choice_of<Precision>(
+              configuration, "simulation.precision",
+              {{"double", Precision::double_precision}, {"single", Precision::single_precision}}),
+          .noise_seed = configuration.seed("screens.seed")};
+}
+
+std::vector<PhaseScreen> screens_of(const Configuration& configuration,
+                                    std::vector<std::string>& notes) {
+  const Telescope telescope = telescope_of(configuration);
+  const int samples = truth_samples(configuration);
+  if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
+    return screens_from_file(file, telescope, samples, notes);
+  }
+  return generate_screens(
+      TurbulenceScreenGenerator(seeing_of(configuration, telescope), samples, telescope.diameter,
+                                configuration.seed("screens.seed")),
+      configuration.integer("screens.count"));
+}
+
+Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes) {
+  return Simulation(telescope_of(configuration), screens_of(configuration, notes),
+                    simulation_options_of(configuration));
+}
+
+Simulation verification_of(const Configuration& configuration) {
+  const Telescope telescope = telescope_of(configuration);
+  const std::uint64_t seed = configuration.seed("verify.seed");
+  const int factor = configuration.integer("verify.truth_factor");
+  if (seed == configuration.seed("screens.seed")) {
+    throw InputError("verify.seed", seed,
+                     "another seed than screens.seed, or the screens would not be fresh");
+  }
+  SimulationOptions options = simulation_options_of(configuration);
+  options.precision = Precision::double_precision;
+  options.noise_seed = seed;
+  if (factor > 1) options.truth = TruthModel::extended;
+  return Simulation(
+      telescope,
+      generate_screens(TurbulenceScreenGenerator(seeing_of(configuration, telescope),
+                                                 truth_samples(configuration) * factor,
+                                                 telescope.diameter, seed),
+                       configuration.integer("verify.screens")),
+      options);
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "studies/command_line.hpp"
+
+namespace nlcwfs {
+
+// The commands. Each reads the configuration, checks all of it before it makes the output folder,
+// writes its results there and prints a short summary on standard output.
+// They throw InputError for bad input and other exceptions for a run that failed.
+
+/// One design's performance on the configured screens.
+void run_evaluate(const CommandLine& command_line);
+
+/// The best design of the configured search, verified on fresh screens beside the baseline.
+void run_optimize(const CommandLine& command_line);
+
+/// A design moved to another telescope at constant Fresnel numbers.
+void run_scale(const CommandLine& command_line);
+
+/// Phase screens as a FITS cube, with their statistics.
+void run_screens(const CommandLine& command_line);
+
+}  // namespace nlcwfs
