@@ -16,7 +16,8 @@ struct Seeing {
 /// Fried parameter in m of a long-exposure seeing disc: r0 = 0.976 lambda / FWHM.
 /// @param fwhm        full width at half maximum, arcsec
 /// @param wavelength  where the FWHM holds, m; the result holds there too
-/// Source: Roddier 1981, Progress in Optics 19, section 4.2 (infinite outer scale).
+/// It is the width of the image that Fried's long-exposure transfer function gives (1966, JOSA 56,
+/// 1372; infinite outer scale).
 double fried_parameter_of_fwhm(double fwhm, double wavelength);
 
 /// The same turbulence's Fried parameter in m at another wavelength: r0' = r0
@@ -33,7 +34,7 @@ double kolmogorov_structure_function(double separation, double fried_parameter);
 /// D(r) = 2 (B(0) - B(r)), B(r) proportional to x^(5/6) K_(5/6)(x), x = 2 pi r / L0, scaled so that
 /// D tends to 6.88 (r/r0)^(5/3) as L0 grows. To rounding for every r / L0.
 /// @param separation  r >= 0, m
-/// Source: Conan 2008, JOSA A 25, 526, eqs. 15 and 16.
+/// Source: Conan 2008, JOSA A 25, 526.
 double von_karman_structure_function(double separation, const Seeing& seeing);
 
 /// Kolmogorov phase variance in rad^2 over a circular pupil, piston removed:
