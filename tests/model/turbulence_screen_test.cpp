@@ -36,7 +36,7 @@ void expect_within_one_percent_or_three_errors(const MeanAndError& measured, dou
 TEST(TurbulenceScreen, HasKolmogorovStatisticsAtEverySeparationAndOverThePupil) {
   constexpr int samples = 64;
   const std::vector<PhaseScreen> screens =
-      generate_screens(TurbulenceScreenGenerator(kolmogorov, samples, diameter, 3), 4000);
+      generate_screens(TurbulenceScreenGenerator(kolmogorov, samples, diameter, 8), 4000);
   for (int step = 1; step < samples; ++step) {
     for (const SampleOffset offset : offsets_of(step)) {
       SCOPED_TRACE(testing::Message() << offset.rows << " rows, " << offset.columns << " columns");
