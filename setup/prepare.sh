@@ -93,7 +93,7 @@ if [ -f $build/CMakeCache.txt ] &&
 fi
 [[ $mode == program ]] && up_to_date && exit 0
 
-if [[ ${NLCWFS_SKIP_PACKAGES:-0} == 0 ]] && command -v dpkg-query apt-get >/dev/null; then
+if [[ ${NLCWFS_SKIP_PACKAGES:-0} == 0 ]] && command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
   install_packages
 fi
 if ! command -v cmake >/dev/null; then
