@@ -22,10 +22,10 @@ template <>
 struct Fftw<double> {
   using Plan = fftw_plan;
   using Complex = fftw_complex;
-  static Plan plan(int length, Complex* line, int sign) {
-    return fftw_plan_dft_1d(length, line, line, sign, FFTW_ESTIMATE);
+  static Plan plan(int length, Complex* in, Complex* out, int sign) {
+    return fftw_plan_dft_1d(length, in, out, sign, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
   }
-  static void execute(Plan plan, Complex* line) { fftw_execute_dft(plan, line, line); }
+  static void execute(Plan plan, Complex* in, Complex* out) { fftw_execute_dft(plan, in, out); }
   static void destroy(Plan plan) { fftw_destroy_plan(plan); }
 };
 
@@ -33,10 +33,10 @@ template <>
 struct Fftw<float> {
   using Plan = fftwf_plan;
   using Complex = fftwf_complex;
-  static Plan plan(int length, Complex* line, int sign) {
-    return fftwf_plan_dft_1d(length, line, line, sign, FFTW_ESTIMATE);
+  static Plan plan(int length, Complex* in, Complex* out, int sign) {
+    return fftwf_plan_dft_1d(length, in, out, sign, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
   }
-  static void execute(Plan plan, Complex* line) { fftwf_execute_dft(plan, line, line); }
+  static void execute(Plan plan, Complex* in, Complex* out) { fftwf_execute_dft(plan, in, out); }
   static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
 };
 
@@ -48,10 +48,15 @@ struct LineTransform<Real>::Plans {
   using Complex = typename Library::Complex;
 
   explicit Plans(int length) {
-    Eigen::ArrayX<std::complex<Real>> line(length);
+    Eigen::ArrayX<std::complex<Real>> in(length);
+    Eigen::ArrayX<std::complex<Real>> out(length);
+    const auto plan = [&](int sign) {
+      return Library::plan(length, reinterpret_cast<Complex*>(in.data()),
+                           reinterpret_cast<Complex*>(out.data()), sign);
+    };
     const std::scoped_lock lock(planner_lock());
-    forward = Library::plan(length, reinterpret_cast<Complex*>(line.data()), FFTW_FORWARD);
-    backward = Library::plan(length, reinterpret_cast<Complex*>(line.data()), FFTW_BACKWARD);
+    forward = plan(FFTW_FORWARD);
+    backward = plan(FFTW_BACKWARD);
   }
   ~Plans() {
     const std::scoped_lock lock(planner_lock());
@@ -60,6 +65,13 @@ struct LineTransform<Real>::Plans {
   }
   Plans(const Plans&) = delete;
   Plans& operator=(const Plans&) = delete;
+
+  /// FFTW's interface takes the input as mutable, but preserves it.
+  void execute(typename Library::Plan plan, const std::complex<Real>* in,
+               std::complex<Real>* out) const {
+    Library::execute(plan, reinterpret_cast<Complex*>(const_cast<std::complex<Real>*>(in)),
+                     reinterpret_cast<Complex*>(out));
+  }
 
   typename Library::Plan forward;
   typename Library::Plan backward;
@@ -72,13 +84,13 @@ LineTransform<Real>::LineTransform(int length) : length_(length) {
 }
 
 template <class Real>
-void LineTransform<Real>::forward(std::complex<Real>* line) const {
-  Plans::Library::execute(plans_->forward, reinterpret_cast<typename Plans::Complex*>(line));
+void LineTransform<Real>::forward(const std::complex<Real>* in, std::complex<Real>* out) const {
+  plans_->execute(plans_->forward, in, out);
 }
 
 template <class Real>
-void LineTransform<Real>::backward(std::complex<Real>* line) const {
-  Plans::Library::execute(plans_->backward, reinterpret_cast<typename Plans::Complex*>(line));
+void LineTransform<Real>::backward(const std::complex<Real>* in, std::complex<Real>* out) const {
+  plans_->execute(plans_->backward, in, out);
 }
 
 template class LineTransform<float>;

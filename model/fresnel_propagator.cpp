@@ -25,30 +25,32 @@ FresnelPropagator<Real>::FresnelPropagator(int samples, double pitch, double wav
 
 template <class Real>
 void FresnelPropagator<Real>::propagate(Field<Real>& field, double distance) const {
-  const RowRange all{0, samples()};
-  propagate(field, distance, all, all);
+  if (distance == 0.0) return;
+  using Sample = std::complex<Real>;
+  for_each_row(field, samples(), 0, samples(),
+               [&](const Sample* in, Sample* out) { transform_.forward(in, out); });
+  propagate_transformed_rows(field, distance);
+  for_each_row(field, samples(), 0, samples(),
+               [&](const Sample* in, Sample* out) { transform_.backward(in, out); });
+  field *= Real(1) / static_cast<Real>(samples());
 }
 
 template <class Real>
-void FresnelPropagator<Real>::propagate(Field<Real>& field, double distance, RowRange lit,
-                                        RowRange wanted) const {
+void FresnelPropagator<Real>::propagate_transformed_rows(Field<Real>& field,
+                                                         double distance) const {
   assert(field.rows() == samples() && field.cols() >= samples());
-  if (distance == 0.0) return;
-
-  // The transforms are not normalised; each axis' function makes up for its own length.
-  const Eigen::ArrayX<std::complex<Real>> transfer =
-      (fresnel_transfer_function(samples(), pitch_, wavelength_, distance) / double(samples()))
-          .template cast<std::complex<Real>>();
-
-  for_each_row(field, lit.first, lit.last,
-               [&](std::complex<Real>* row) { transform_.forward(row); });
-  for_each_column(field, samples(), [&](std::complex<Real>* column, Eigen::Index index) {
-    transform_.forward(column);
-    multiply_line(column, transfer.data(), transfer[index], samples());
-    transform_.backward(column);
+  assert(distance != 0.0);
+  using Sample = std::complex<Real>;
+  const Eigen::ArrayX<Sample> transfer =
+      fresnel_transfer_function(samples(), pitch_, wavelength_, distance).template cast<Sample>();
+  const Real column_norm = Real(1) / static_cast<Real>(samples());
+  Eigen::ArrayX<Sample> spectrum(samples());
+  for_each_column(field, samples(), [&](const Sample* in, Sample* out, Eigen::Index column) {
+    transform_.forward(in, spectrum.data());
+    multiply_line(spectrum.data(), transfer.data(), column_norm * transfer[column], spectrum.data(),
+                  samples());
+    transform_.backward(spectrum.data(), out);
   });
-  for_each_row(field, wanted.first, wanted.last,
-               [&](std::complex<Real>* row) { transform_.backward(row); });
 }
 
 template class FresnelPropagator<float>;

@@ -18,12 +18,6 @@ namespace nlcwfs {
 Eigen::ArrayXcd fresnel_transfer_function(int samples, double pitch, double wavelength,
                                           double distance);
 
-/// Half-open range of the rows of a grid.
-struct RowRange {
-  Eigen::Index first;
-  Eigen::Index last;
-};
-
 /// Fresnel propagation on a periodic grid: what leaves on one side comes back on the other. This is
 /// the reconstructor's propagation; see WrapFreePropagator for the light itself.
 ///
@@ -39,12 +33,17 @@ class FresnelPropagator {
 
   int samples() const { return transform_.length(); }
 
+  /// The transform of the grid's rows.
+  const LineTransform<Real>& row_transform() const { return transform_; }
+
   /// Propagates `field` (samples x samples, or a padded_field) by `distance` (m, signed) in place.
   /// A distance of 0 is exactly the identity.
-  /// @param lit     rows outside of it are known to be 0 before
-  /// @param wanted  rows outside of it are left undefined
-  void propagate(Field<Real>& field, double distance, RowRange lit, RowRange wanted) const;
   void propagate(Field<Real>& field, double distance) const;
+
+  /// The same on a field whose rows are Fourier transforms (row_transform().forward), before and
+  /// after: for callers that have work to do on the rows while they are in cache.
+  /// @pre distance is not 0
+  void propagate_transformed_rows(Field<Real>& field, double distance) const;
 
  private:
   LineTransform<Real> transform_;

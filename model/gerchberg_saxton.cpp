@@ -1,5 +1,6 @@
 #include "model/gerchberg_saxton.hpp"
 
+#include "model/line_kernels.hpp"
 #include "model/loop_change.hpp"
 
 #include <algorithm>
@@ -54,40 +55,43 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
     amplitudes.push_back(image.max(0.0).sqrt().template cast<Real>());
   }
 
-  const int width = design_.grid_width();
-  const auto samples = static_cast<Eigen::Index>(design_.pupil_samples());
+  const int width = propagator_.samples();
+  const auto samples = mask_.rows();
   const Eigen::Index border = (width - samples) / 2;
-  const RowRange all_rows{0, width};
-  const RowRange pupil_rows{border, border + samples};
   const double length_per_radian = wavelength_ / (2.0 * std::numbers::pi);
+  using Sample = std::complex<Real>;
 
   Reconstruction result;
   result.pupil_field = first_estimate(images);
   LoopChange loop_change(options.stopping, mask_, unwrapper_, result.pupil_field);
+  // Between the planes the field's rows are Fourier transforms: each plane transforms a row back,
+  // replaces its amplitudes and transforms it again while it is in cache.
   Field<Real> field = padded_field<Real>(width);
   while (!result.converged && result.loops < options.max_loops) {
     ++result.loops;
-    const auto relaxation = static_cast<Real>(options.relaxation(result.loops));
     field.setZero();
-    field.block(border, border, samples, samples) =
-        result.pupil_field.template cast<std::complex<Real>>();
-    RowRange lit_rows = pupil_rows;
+    field.block(border, border, samples, samples) = result.pupil_field.template cast<Sample>();
+    for_each_row(field, width, border, border + samples, [&](const Sample* in, Sample* out) {
+      propagator_.row_transform().forward(in, out);
+    });
     double position = 0.0;
-    const auto hop_to = [&](double next, RowRange wanted_rows) {
+    const auto hop_to = [&](double next) {
       if (next == position) return;
-      propagator_.propagate(field, next - position, lit_rows, wanted_rows);
+      propagator_.propagate_transformed_rows(field, next - position);
       result.fft_count += 2;
       position = next;
-      lit_rows = all_rows;
     };
     for (std::size_t plane = 0; plane < amplitudes.size(); ++plane) {
-      hop_to(design_.planes[plane], all_rows);
-      replace_amplitude(field, amplitudes[plane], relaxation);
-      lit_rows = all_rows;
+      hop_to(design_.planes[plane]);
+      measure(field, amplitudes[plane], static_cast<Real>(options.relaxation(result.loops)));
     }
-    hop_to(0.0, pupil_rows);
+    hop_to(0.0);
+    for_each_row(field, width, border, border + samples, [&](const Sample* in, Sample* out) {
+      propagator_.row_transform().backward(in, out);
+    });
     result.pupil_field = mask_.select(
-        field.block(border, border, samples, samples).template cast<std::complex<double>>(),
+        field.block(border, border, samples, samples).template cast<std::complex<double>>() /
+            double(width),
         std::complex<double>(0.0));
 
     result.changes.push_back(loop_change.update(result.pupil_field) * length_per_radian);
@@ -116,41 +120,34 @@ Field<double> GerchbergSaxton<Real>::first_estimate(std::span<const Image<double
 }
 
 template <class Real>
-void GerchbergSaxton<Real>::replace_amplitude(Field<Real>& field, const Image<Real>& amplitude,
-                                              Real relaxation) const {
-  const Eigen::Index oversampling = design_.reconstruction.oversampling;
-  const Eigen::Index pixels = amplitude.rows();
-  const Eigen::Index border = (field.rows() - pixels * oversampling) / 2;
-  const Real samples_per_pixel = static_cast<Real>(oversampling * oversampling);
-  if (design_.reconstruction.outside == OutsideDetector::zero) {
+void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& amplitude,
+                                    Real relaxation) const {
+  const int width = propagator_.samples();
+  const int oversampling = design_.reconstruction.oversampling;
+  const auto pixels = static_cast<int>(amplitude.rows());
+  const int border = (width - pixels * oversampling) / 2;
+  const bool dark_outside = design_.reconstruction.outside == OutsideDetector::zero;
+  const LineTransform<Real>& transform = propagator_.row_transform();
+
+  const Real row_norm = Real(1) / static_cast<Real>(width);
+  const Real outside_gain = dark_outside ? Real(0) : row_norm;
+  if (dark_outside) {
     field.topRows(border).setZero();
     field.bottomRows(border).setZero();
-    field.leftCols(border).setZero();
-    field.middleCols(field.rows() - border, border).setZero();
   }
-  Eigen::ArrayX<Real> scale(pixels);
-  for (Eigen::Index row = 0; row < pixels; ++row) {
-    auto samples =
-        field.block(border + row * oversampling, border, oversampling, pixels * oversampling);
-    scale.setZero();
-    for (Eigen::Index i = 0; i < oversampling; ++i) {
-      for (Eigen::Index j = 0; j < samples.cols(); ++j) {
-        scale[j / oversampling] += std::norm(samples(i, j));
-      }
+  Field<Real> rows(oversampling, width);
+  Eigen::ArrayX<Real> scratch(pixels);
+  for (int pixel_row = 0; pixel_row < pixels; ++pixel_row) {
+    const int first = border + pixel_row * oversampling;
+    for (int row = 0; row < oversampling; ++row) {
+      transform.backward(field.row(first + row).data(), rows.row(row).data());
     }
-    for (Eigen::Index pixel = 0; pixel < pixels; ++pixel) {
-      const Real estimated = std::sqrt(scale[pixel] / samples_per_pixel);
-      const Real wanted = amplitude(row, pixel) + relaxation * (amplitude(row, pixel) - estimated);
-      if (estimated > Real(0)) {
-        scale[pixel] = wanted / estimated;
-      } else {
-        // A dark field has no phase to keep: 0 is as good as any.
-        samples.middleCols(pixel * oversampling, oversampling).setConstant(wanted);
-        scale[pixel] = Real(1);
-      }
-    }
-    for (Eigen::Index i = 0; i < oversampling; ++i) {
-      for (Eigen::Index j = 0; j < samples.cols(); ++j) samples(i, j) *= scale[j / oversampling];
+    rows.leftCols(border) *= outside_gain;
+    rows.rightCols(border) *= outside_gain;
+    replace_amplitudes(rows.data() + border, rows.cols(), oversampling, row_norm,
+                       amplitude.row(pixel_row).data(), relaxation, scratch.data(), pixels);
+    for (int row = 0; row < oversampling; ++row) {
+      transform.forward(rows.row(row).data(), field.row(first + row).data());
     }
   }
 }

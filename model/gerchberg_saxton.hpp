@@ -30,7 +30,7 @@ struct Reconstruction {
 ///
 /// The amplitude step is a relaxed projection: with A the measured and a the field's amplitude over
 /// a detector pixel (the root of its mean intensity, of several samples where the grid is finer
-/// than the pixels), the field there is scaled by (A + beta (A - a)) / a.
+/// than the pixels), the field there is scaled by (A + beta (A - a)) / a; a dark field stays dark.
 template <class Real>
 class GerchbergSaxton {
  public:
@@ -45,7 +45,8 @@ class GerchbergSaxton {
 
  private:
   Field<double> first_estimate(std::span<const Image<double>> images) const;
-  void replace_amplitude(Field<Real>& field, const Image<Real>& amplitude, Real relaxation) const;
+  /// The amplitude step at one plane, on a field whose rows are Fourier transforms.
+  void measure(Field<Real>& field, const Image<Real>& amplitude, Real relaxation) const;
 
   SensorDesign design_;
   double wavelength_;

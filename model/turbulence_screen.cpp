@@ -86,8 +86,9 @@ void transform_even(const LineTransform<double>& transform, Samples&& samples) {
   const int period = transform.length();
   Eigen::ArrayX<Complex> line(period);
   for (int x = 0; x < period; ++x) line[x] = samples[std::min(x, period - x)];
-  transform.forward(line.data());
-  samples = line.head(period / 2 + 1).real();
+  Eigen::ArrayX<Complex> transformed(period);
+  transform.forward(line.data(), transformed.data());
+  samples = transformed.head(period / 2 + 1).real();
 }
 
 }  // namespace
@@ -132,6 +133,7 @@ std::array<PhaseScreen, 2> TurbulenceScreenGenerator::screen_pair(int pair) cons
   const int period = transform_.length();
   Field<double> field(period, samples_);
   Eigen::ArrayX<Complex> line(period);
+  Eigen::ArrayX<Complex> transformed(period);
   for (int y = 0; y < period; ++y) {
     const int row = std::min(y, period - y);
     for (int x = 0; x < period; ++x) {
@@ -139,11 +141,12 @@ std::array<PhaseScreen, 2> TurbulenceScreenGenerator::screen_pair(int pair) cons
       const double imaginary = normal(generator);
       line[x] = amplitude_(row, std::min(x, period - x)) * Complex(real, imaginary);
     }
-    transform_.forward(line.data());
-    field.row(y) = line.head(samples_).transpose();
+    transform_.forward(line.data(), transformed.data());
+    field.row(y) = transformed.head(samples_).transpose();
   }
-  for_each_column(field, samples_,
-                  [this](Complex* column, Eigen::Index) { transform_.forward(column); });
+  for_each_column(field, samples_, [this](const Complex* in, Complex* out, Eigen::Index) {
+    transform_.forward(in, out);
+  });
 
   const Eigen::ArrayXd position =
       Eigen::ArrayXd::LinSpaced(samples_, -0.5 * (samples_ - 1), 0.5 * (samples_ - 1));

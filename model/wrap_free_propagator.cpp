@@ -27,17 +27,19 @@ Eigen::ArrayXcd WrapFreePropagator::transfer_function(double distance) const {
   const double reach = wavelength_ * std::abs(distance) / (2.0 * pitch_ * pitch_) + length;
   const auto period =
       static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(period_margin_ * reach))));
-  Eigen::ArrayXcd kernel =
+  const Eigen::ArrayXcd spectrum =
       fresnel_transfer_function(period, pitch_, wavelength_, distance) / double(period);
-  LineTransform<double>(period).backward(kernel.data());
+  Eigen::ArrayXcd kernel(period);
+  LineTransform<double>(period).backward(spectrum.data(), kernel.data());
 
   // Window sample j stands (j - k - shift) pitches from pupil sample k.
   const int shift = (window_samples_ - pupil_samples_) / 2;
-  Eigen::ArrayXcd transfer = Eigen::ArrayXcd::Zero(length);
+  Eigen::ArrayXcd wanted = Eigen::ArrayXcd::Zero(length);
   for (int offset = 1 - pupil_samples_; offset < window_samples_; ++offset) {
-    transfer[(offset + length) % length] = kernel[(offset - shift + period) % period];
+    wanted[(offset + length) % length] = kernel[(offset - shift + period) % period];
   }
-  transform_.forward(transfer.data());
+  Eigen::ArrayXcd transfer(length);
+  transform_.forward(wanted.data(), transfer.data());
   return transfer / double(length);
 }
 
@@ -45,24 +47,29 @@ Field<double> WrapFreePropagator::spectrum(const Field<double>& pupil) const {
   assert(pupil.rows() == pupil_samples_ && pupil.cols() == pupil_samples_);
   Field<double> spectrum = padded_field<double>(transform_.length());
   spectrum.topLeftCorner(pupil_samples_, pupil_samples_) = pupil;
-  for_each_row(spectrum, 0, pupil_samples_,
-               [&](std::complex<double>* row) { transform_.forward(row); });
-  for_each_column(spectrum, transform_.length(),
-                  [&](std::complex<double>* column, Eigen::Index) { transform_.forward(column); });
+  using Sample = std::complex<double>;
+  const int length = transform_.length();
+  for_each_row(spectrum, length, 0, pupil_samples_,
+               [&](const Sample* in, Sample* out) { transform_.forward(in, out); });
+  for_each_column(spectrum, length, [&](const Sample* in, Sample* out, Eigen::Index) {
+    transform_.forward(in, out);
+  });
   return spectrum;
 }
 
 Field<double> WrapFreePropagator::field(const Field<double>& spectrum,
                                         const Eigen::ArrayXcd& transfer) const {
   assert(spectrum.rows() == transform_.length() && transfer.size() == transform_.length());
+  using Sample = std::complex<double>;
+  const int length = transform_.length();
   Field<double> field = spectrum;
-  for_each_column(field, transform_.length(),
-                  [&](std::complex<double>* column, Eigen::Index index) {
-                    multiply_line(column, transfer.data(), transfer[index], transform_.length());
-                    transform_.backward(column);
-                  });
-  for_each_row(field, 0, window_samples_,
-               [&](std::complex<double>* row) { transform_.backward(row); });
+  Eigen::ArrayXcd filtered(length);
+  for_each_column(field, length, [&](const Sample* in, Sample* out, Eigen::Index column) {
+    multiply_line(in, transfer.data(), transfer[column], filtered.data(), length);
+    transform_.backward(filtered.data(), out);
+  });
+  for_each_row(field, length, 0, window_samples_,
+               [&](const Sample* in, Sample* out) { transform_.backward(in, out); });
   return field.topLeftCorner(window_samples_, window_samples_);
 }
 

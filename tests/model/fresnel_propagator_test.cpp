@@ -71,19 +71,6 @@ TEST(FresnelPropagator, TwoHopsAreOneHopOfTheirSum) {
   EXPECT_LT((in_two - in_one).abs().maxCoeff(), 1e-12);
 }
 
-TEST(FresnelPropagator, KnownDarkAndUnwantedRowsChangeNothing) {
-  const FresnelPropagator<double> propagator(coma_grid, pitch, wavelength);
-  const int border = (coma_grid - coma_pupil_samples) / 2;
-  const RowRange pupil_rows{border, border + coma_pupil_samples};
-  Field<double> full = coma_field(2.0);
-  propagator.propagate(full, 47e3);
-  Field<double> pruned = coma_field(2.0);
-  propagator.propagate(pruned, 47e3, pupil_rows, pupil_rows);
-  EXPECT_TRUE(
-      (pruned.middleRows(border, coma_pupil_samples) == full.middleRows(border, coma_pupil_samples))
-          .all());
-}
-
 /// exp(i phi sin(2 pi x / period)) on a periodic grid that holds whole periods.
 Field<double> sinusoidal_phase(double amplitude, int samples, int periods) {
   Field<double> field(samples, samples);

@@ -3,11 +3,11 @@
 #include "model/input_error.hpp"
 
 #include <cmath>
-#include <gmock/gmock.h>
 #include <limits>
 #include <numbers>
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace nlcwfs {

@@ -3,9 +3,9 @@
 #include "model/input_error.hpp"
 
 #include <cmath>
-#include <gmock/gmock.h>
 #include <limits>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace nlcwfs {

@@ -3,12 +3,12 @@
 #include "test_problems.hpp"
 
 #include <cmath>
-#include <gmock/gmock.h>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace nlcwfs {

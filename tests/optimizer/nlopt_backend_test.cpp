@@ -3,13 +3,13 @@
 #include "test_problems.hpp"
 
 #include <algorithm>
-#include <gmock/gmock.h>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace nlcwfs {

@@ -3,9 +3,9 @@
 #include "tests/message_of.hpp"
 
 #include <fstream>
-#include <gmock/gmock.h>
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace nlcwfs {

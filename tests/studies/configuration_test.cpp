@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <fstream>
-#include <gmock/gmock.h>
 #include <set>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace nlcwfs {

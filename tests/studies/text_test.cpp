@@ -1,7 +1,6 @@
 #include "studies/text.hpp"
 
 #include <gmock/gmock.h>
-
 #include <gtest/gtest.h>
 
 namespace nlcwfs {

@@ -1,11 +1,11 @@
 #include "studies/units.hpp"
 
 #include <cmath>
-#include <gmock/gmock.h>
 #include <limits>
 #include <locale>
 #include <numbers>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace nlcwfs {
