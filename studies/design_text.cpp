@@ -30,11 +30,11 @@ std::string with_error(const MeanAndError& value) {
 }
 
 std::string telescope_line(const Telescope& telescope, const Seeing& seeing) {
-  std::string line = fmt::format(
-      "{} telescope at {}, D/r0 = {:.4g} (r0 = {}, its Talbot distance {})",
-      format_length(telescope.diameter), format_length(telescope.wavelength),
-      telescope.diameter / seeing.fried_parameter, format_length(seeing.fried_parameter),
-      format_length(talbot_distance(seeing.fried_parameter, telescope.wavelength)));
+  std::string line =
+      fmt::format("{:.4g} m telescope at {}, D/r0 = {:.4g}: r0 = {:.3g} cm, its Talbot distance {}",
+                  telescope.diameter, format_length(telescope.wavelength),
+                  telescope.diameter / seeing.fried_parameter, 100.0 * seeing.fried_parameter,
+                  format_length(talbot_distance(seeing.fried_parameter, telescope.wavelength)));
   if (seeing.outer_scale) line += ", outer scale " + format_length(*seeing.outer_scale);
   return line;
 }

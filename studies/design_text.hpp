@@ -13,7 +13,7 @@ namespace nlcwfs {
 /// "0.52 +- 0.03": a mean with its standard error, to the error's second digit.
 std::string with_error(const MeanAndError& value);
 
-/// One line: "0.5 m telescope at 532 nm, D/r0 = 4 (r0 = 12.5 cm, Talbot distance 58.74 km)".
+/// One line: "0.5 m telescope at 532 nm, D/r0 = 4: r0 = 12.5 cm, its Talbot distance 58.74 km".
 std::string telescope_line(const Telescope& telescope, const Seeing& seeing);
 
 /// A table of the planes in visiting order: km, Talbot distances of r0, Fresnel numbers, distance

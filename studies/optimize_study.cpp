@@ -159,6 +159,21 @@ Json stages_array(const SearchResult& result) {
   return stages;
 }
 
+/// How the search ended, for people.
+std::string_view ending_text(Termination termination) {
+  switch (termination) {
+    case Termination::converged:
+      return "until nothing got better";
+    case Termination::budget_exhausted:
+      return "all that search.budget allows";
+    case Termination::time_limit:
+      return "until search.time_limit";
+    case Termination::stop_requested:
+      break;
+  }
+  return "until it was stopped";
+}
+
 std::string verdict_text(const Improvement& improvement, const VerifiedDesign& baseline) {
   switch (improvement.verdict) {
     case Verdict::better:
@@ -185,10 +200,12 @@ void print_result(const Task& task, const SearchResult& result, double search_se
                   const Improvement& gain) {
   for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
-  fmt::print("Searched {} designs on {} screens in {} ({}{}).\n\n", result.evaluations,
+  fmt::print("Tried {} designs on {} screens in {}, {}{}.\n\n", result.evaluations,
              task.simulation.screen_count(), duration_text(search_seconds),
-             to_string(result.termination),
-             result.failures > 0 ? fmt::format(", {} failed", result.failures) : "");
+             ending_text(result.termination),
+             result.failures > 0
+                 ? fmt::format("; {} of them failed, see search.csv", result.failures)
+                 : "");
   fmt::print("Best design, planes in visiting order:\n{}\n",
              planes_table(best.design, task.telescope, task.seeing, &best.performance));
   fmt::print("Baseline:\n{}\n",
