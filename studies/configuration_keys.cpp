@@ -86,8 +86,10 @@ std::vector<ConfigurationKey> make_keys() {
       {.name = "sensor.planes",
        .kind = Kind::length_list,
        .default_text = "-180km,180km,-47km,47km",
-       .description = "Signed distances of the measured planes from the pupil, in the order in "
-                      "which the reconstruction visits them."},
+       .description =
+           "Signed distances of the measured planes from the pupil, in the order in "
+           "which the reconstruction visits them. Not set: these, at their Fresnel numbers "
+           "of the paper's telescope."},
 
       {.name = "detector.pupil_pixels",
        .kind = Kind::integer,
@@ -290,7 +292,7 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::length_list,
        .default_text = "-47km,47km,-180km,180km",
        .description = "Planes, in visiting order, of the design that the best one is compared "
-                      "with."},
+                      "with. Not set: the paper's, at their Fresnel numbers."},
       {.name = "baseline.relaxation",
        .kind = Kind::ramp,
        .default_text = "0",

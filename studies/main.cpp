@@ -1,6 +1,7 @@
 #include "model/input_error.hpp"
 #include "results/output_folder.hpp"
 #include "studies/command_line.hpp"
+#include "studies/settings.hpp"
 #include "studies/studies.hpp"
 #include "studies/text.hpp"
 #include "studies/version.hpp"
@@ -20,7 +21,7 @@ enum ExitCode { done = 0, run_failed = 1, bad_input = 2 };
 
 void run(int argc, const char* const* argv) {
   using namespace nlcwfs;
-  const CommandLine command_line = parse_command_line(argc, argv);
+  CommandLine command_line = parse_command_line(argc, argv);
   if (command_line.version) {
     fmt::print("nlcwfs {}\n", version());
     return;
@@ -29,6 +30,7 @@ void run(int argc, const char* const* argv) {
     fmt::print("{}", help_text(command_line.command));
     return;
   }
+  scale_default_planes(command_line.configuration);
   if (command_line.dump_config) {
     fmt::print("{}", command_line.configuration.dump());
     return;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
@@ -72,6 +73,20 @@ Telescope telescope_of(const Configuration& configuration) {
       .relay_beam_diameter = configuration.optional_length("telescope.relay_beam_diameter")};
   telescope.validate();
   return telescope;
+}
+
+void scale_default_planes(Configuration& configuration) {
+  const Telescope papers = telescope_of(Configuration());
+  const Telescope telescope = telescope_of(configuration);
+  if (telescope.diameter == papers.diameter && telescope.wavelength == papers.wavelength) return;
+  const std::string by_default = Configuration().source("sensor.planes");
+  for (const char* key : {"sensor.planes", "baseline.planes"}) {
+    if (configuration.source(key) != by_default) continue;
+    std::vector<double> planes = configuration.lengths(key);
+    for (double& plane : planes) plane = scaled_distance(plane, papers, telescope);
+    configuration.set(key, fmt::format("{}", fmt::join(planes, ",")),
+                      "by default, at the paper's Fresnel numbers");
+  }
 }
 
 Seeing seeing_of(const Configuration& configuration, const Telescope& telescope) {

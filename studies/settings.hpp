@@ -19,6 +19,10 @@ namespace nlcwfs {
 
 Telescope telescope_of(const Configuration& configuration);
 
+/// The planes that stand by default, those of the paper's telescope, moved to the configured
+/// telescope at constant Fresnel numbers.
+void scale_default_planes(Configuration& configuration);
+
 /// With the Fried parameter brought to the telescope's wavelength.
 Seeing seeing_of(const Configuration& configuration, const Telescope& telescope);
 

@@ -1,0 +1,151 @@
+#include "studies/settings.hpp"
+
+#include "tests/message_of.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* here = "on the command line";
+
+Configuration with(std::initializer_list<std::pair<const char*, const char*>> values) {
+  Configuration configuration;
+  for (const auto& [key, value] : values) configuration.set(key, value, here);
+  return configuration;
+}
+
+double fried_parameter(const Configuration& configuration) {
+  return seeing_of(configuration, telescope_of(configuration)).fried_parameter;
+}
+
+TEST(Settings, TheDefaultsAreThoseOfTheTypes) {
+  const Configuration configuration;
+  const SensorDesign design = design_of(configuration);
+  const SensorDesign expected;
+  EXPECT_EQ(design.planes, expected.planes);
+  EXPECT_EQ(design.detector.pupil_pixels, expected.detector.pupil_pixels);
+  EXPECT_EQ(design.detector.window, expected.detector.window);
+  EXPECT_EQ(design.reconstruction.max_loops, expected.reconstruction.max_loops);
+  EXPECT_EQ(design.reconstruction.tolerance, expected.reconstruction.tolerance);
+  EXPECT_EQ(design.reconstruction.stopping, expected.reconstruction.stopping);
+  EXPECT_EQ(design.reconstruction.window, expected.reconstruction.window);
+  EXPECT_EQ(design.reconstruction.outside, expected.reconstruction.outside);
+  EXPECT_EQ(design.reconstruction.unwrapping, expected.reconstruction.unwrapping);
+  EXPECT_EQ(telescope_of(configuration).diameter, Telescope().diameter);
+  EXPECT_EQ(telescope_of(configuration).wavelength, Telescope().wavelength);
+  EXPECT_EQ(cost_of(configuration).wfe_scale, DesignCost().wfe_scale);
+  EXPECT_EQ(cost_of(configuration).loop_weight, DesignCost().loop_weight);
+}
+
+TEST(Settings, EveryMeasureOfTheSeeingGivesTheSameFriedParameter) {
+  EXPECT_DOUBLE_EQ(fried_parameter(with({{"seeing.d_over_r0", "4"}})), 0.125);
+  EXPECT_DOUBLE_EQ(fried_parameter(with({{"seeing.fried_parameter", "12.5cm"}})), 0.125);
+  // 0.976 x 532 nm / 12.5 cm in arcsec
+  EXPECT_NEAR(fried_parameter(with({{"seeing.fwhm", "0.85680"}})), 0.125, 1e-5);
+}
+
+TEST(Settings, TheFriedParameterIsBroughtFromItsReferenceWavelengthToTheTelescopes) {
+  EXPECT_NEAR(fried_parameter(with({{"seeing.fried_parameter", "10cm"},
+                                    {"seeing.reference_wavelength", "500nm"},
+                                    {"telescope.wavelength", "1um"}})),
+              0.1 * std::pow(2.0, 1.2), 1e-12);
+  // D/r0 is dimensionless at the telescope's wavelength, whatever the reference.
+  EXPECT_DOUBLE_EQ(fried_parameter(with({{"seeing.d_over_r0", "4"},
+                                         {"seeing.reference_wavelength", "500nm"},
+                                         {"telescope.wavelength", "1um"}})),
+                   0.125);
+}
+
+TEST(Settings, PlanesByDefaultKeepTheirFresnelNumbersAtAnotherTelescope) {
+  Configuration configuration =
+      with({{"telescope.diameter", "1.8m"}, {"telescope.wavelength", "850nm"}});
+  scale_default_planes(configuration);
+  const Telescope telescope = telescope_of(configuration);
+  for (const auto& [planes, papers] :
+       {std::pair{design_of(configuration).planes, design_of(Configuration()).planes},
+        std::pair{baseline_of(configuration).planes, baseline_of(Configuration()).planes}}) {
+    ASSERT_EQ(planes.size(), papers.size());
+    for (std::size_t plane = 0; plane < planes.size(); ++plane) {
+      EXPECT_NEAR(fresnel_number(telescope, planes[plane]),
+                  fresnel_number(Telescope(), papers[plane]), 1e-9);
+    }
+  }
+}
+
+TEST(Settings, PlanesThatTheUserSetsStayWhereTheyAre) {
+  Configuration configuration =
+      with({{"telescope.diameter", "1.8m"}, {"sensor.planes", "-180km,180km,-47km,47km"}});
+  scale_default_planes(configuration);
+  EXPECT_THAT(configuration.lengths("sensor.planes"), ElementsAre(-180e3, 180e3, -47e3, 47e3));
+  Configuration papers;
+  scale_default_planes(papers);
+  EXPECT_EQ(papers, Configuration());
+}
+
+TEST(Settings, TheBaselineDiffersOnlyInWhatItsSectionSets) {
+  const Configuration configuration = with({{"reconstruction.relaxation", "0.5:0.1"},
+                                            {"reconstruction.initial_guess", "centroid"},
+                                            {"reconstruction.max_loops", "33"}});
+  EXPECT_EQ(design_of(configuration).reconstruction.relaxation_start, 0.5);
+  EXPECT_EQ(design_of(configuration).reconstruction.relaxation_end, 0.1);
+  EXPECT_EQ(design_of(configuration).reconstruction.initial_guess, InitialGuess::centroid);
+  const SensorDesign baseline = baseline_of(configuration);
+  EXPECT_EQ(baseline.reconstruction.relaxation_start, 0.0);
+  EXPECT_EQ(baseline.reconstruction.relaxation_end, 0.0);
+  EXPECT_EQ(baseline.reconstruction.initial_guess, InitialGuess::flat);
+  EXPECT_EQ(baseline.reconstruction.max_loops, 33);
+  EXPECT_THAT(baseline.planes, ElementsAre(-47e3, 47e3, -180e3, 180e3));
+}
+
+TEST(Settings, AFreeLayoutHasAVariableForEachPlaneAndASymmetricOneForEachPair) {
+  const Telescope telescope;
+  EXPECT_EQ(layout_of(Configuration(), telescope)->variables().size(), 2U);
+  const auto free = layout_of(
+      with({{"search.layout", "free"}, {"search.plane_count", "3"}, {"search.z2", "5km:50km"}}),
+      telescope);
+  ASSERT_EQ(free->variables().size(), 3U);
+  const auto planes_at = [&](double share) {
+    SearchPoint point{0, Eigen::VectorXd(3)};
+    for (int i = 0; i < 3; ++i) {
+      const Variable variable = free->variables()[static_cast<std::size_t>(i)];
+      point.x[i] = std::lerp(variable.lower, variable.upper, share);
+    }
+    return free->planes(point);
+  };
+  const double farthest = default_distance_range(telescope).second;
+  EXPECT_THAT(planes_at(0.0), ElementsAre(DoubleNear(-farthest, 1e-6), DoubleNear(5e3, 1e-6),
+                                          DoubleNear(-farthest, 1e-6)));
+  EXPECT_THAT(planes_at(1.0), ElementsAre(DoubleNear(farthest, 1e-6), DoubleNear(50e3, 1e-6),
+                                          DoubleNear(farthest, 1e-6)));
+}
+
+TEST(Settings, TheVerificationsScreensMustBeFresh) {
+  EXPECT_THAT(message_of([] {
+                verification_of(with({{"verify.seed", "7"}, {"screens.seed", "7"}}));
+              }),
+              HasSubstr("verify.seed = 7: another seed than screens.seed"));
+}
+
+TEST(Settings, TheVerificationsTruthIsFinerAndNoLongerMatched) {
+  const Configuration configuration = with({{"simulation.truth", "matched"},
+                                            {"detector.pupil_pixels", "16"},
+                                            {"verify.screens", "2"},
+                                            {"verify.truth_factor", "2"}});
+  const Simulation verification = verification_of(configuration);
+  EXPECT_EQ(verification.truth_samples(), 32);
+  EXPECT_EQ(verification.screen_count(), 2);
+  // A matched simulation would widen the detector to the reconstruction's window.
+  SensorDesign design = design_of(configuration);
+  EXPECT_EQ(verification.checked(design).detector.window, design.detector.window);
+}
+
+}  // namespace
+}  // namespace nlcwfs
