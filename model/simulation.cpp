@@ -1,11 +1,10 @@
 #include "model/simulation.hpp"
 
-#include "model/fresnel_propagator.hpp"
 #include "model/gerchberg_saxton.hpp"
 #include "model/grid_width.hpp"
 #include "model/input_error.hpp"
 #include "model/random_stream.hpp"
-#include "model/wrap_free_propagator.hpp"
+#include "model/true_light.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -18,62 +17,6 @@
 
 namespace nlcwfs {
 namespace {
-
-/// The true light in the detector's window of each plane, at the truth's samples.
-class TrueLight {
- public:
-  virtual ~TrueLight() = default;
-  /// The fields of all planes, in visiting order, of a pupil field.
-  virtual std::vector<Field<double>> at_planes(const Field<double>& pupil) const = 0;
-};
-
-class ExtendedLight final : public TrueLight {
- public:
-  ExtendedLight(const Telescope& telescope, const SensorDesign& design, int pupil_samples)
-      : propagator_(pupil_samples, grid_width(design.detector.window, pupil_samples),
-                    telescope.diameter / pupil_samples, telescope.wavelength) {
-    for (const double plane : design.planes) {
-      transfer_functions_.push_back(propagator_.transfer_function(plane));
-    }
-  }
-
-  std::vector<Field<double>> at_planes(const Field<double>& pupil) const override {
-    const Field<double> spectrum = propagator_.spectrum(pupil);
-    std::vector<Field<double>> fields;
-    for (const Eigen::ArrayXcd& transfer : transfer_functions_) {
-      fields.push_back(propagator_.field(spectrum, transfer));
-    }
-    return fields;
-  }
-
- private:
-  WrapFreePropagator propagator_;
-  std::vector<Eigen::ArrayXcd> transfer_functions_;
-};
-
-class MatchedLight final : public TrueLight {
- public:
-  MatchedLight(const Telescope& telescope, const SensorDesign& design)
-      : planes_(design.planes),
-        propagator_(design.grid_width(), telescope.diameter / design.pupil_samples(),
-                    telescope.wavelength) {}
-
-  std::vector<Field<double>> at_planes(const Field<double>& pupil) const override {
-    const Eigen::Index width = propagator_.samples();
-    const Eigen::Index border = (width - pupil.rows()) / 2;
-    Field<double> padded = Field<double>::Zero(width, width);
-    padded.block(border, border, pupil.rows(), pupil.cols()) = pupil;
-    std::vector<Field<double>> fields(planes_.size(), padded);
-    for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
-      propagator_.propagate(fields[plane], planes_[plane]);
-    }
-    return fields;
-  }
-
- private:
-  std::vector<double> planes_;
-  FresnelPropagator<double> propagator_;
-};
 
 /// For each plane its rank by distance, so that the noise belongs to the plane and not to the order
 /// in which the planes are visited.
@@ -99,51 +42,60 @@ class Experiment {
         truth_mask_(truth_mask),
         samples_per_pixel_(static_cast<int>(truth_mask.rows()) / design.detector.pupil_pixels),
         noise_keys_(ranks_by_distance(design.planes)),
+        light_(
+            make_true_light(options.truth, telescope, design, static_cast<int>(truth_mask.rows()))),
         reconstructor_(telescope, design),
-        unwrapper_(reconstructor_.mask(), design.reconstruction.unwrapping) {
-    if (options.truth == TruthModel::matched) {
-      light_ = std::make_unique<MatchedLight>(telescope, design);
-    } else {
-      light_ =
-          std::make_unique<ExtendedLight>(telescope, design, static_cast<int>(truth_mask.rows()));
-    }
-  }
+        unwrapper_(reconstructor_.mask(), design.reconstruction.unwrapping) {}
 
   ScreenPerformance run(const PhaseScreen& truth, std::size_t screen) const {
-    ScreenPerformance result;
-    const Field<double> pupil = pupil_field(truth, truth_mask_);
-    const double pupil_energy =
-        double(truth_mask_.count()) / (samples_per_pixel_ * samples_per_pixel_);
-
-    std::vector<Image<double>> images;
-    for (const Field<double>& field : light_->at_planes(pupil)) {
-      images.push_back(integrate_pixels(field, samples_per_pixel_));
-      result.captured_energy.push_back(images.back().sum() / pupil_energy);
-    }
-    if (detector_.photons > 0.0) {
-      const double photons_per_unit = detector_.photons / double(images.size()) / pupil_energy;
-      for (std::size_t plane = 0; plane < images.size(); ++plane) {
-        RandomStream stream = random_stream({options_.noise_seed, screen, noise_keys_[plane]});
-        add_noise(images[plane], photons_per_unit, detector_.read_noise, stream);
-      }
-    }
+    const std::vector<Image<double>> light = integrated_light(pupil_field(truth, truth_mask_));
+    const std::vector<Image<double>> images = detector_images(light, screen);
 
     const auto start = std::chrono::steady_clock::now();
     const Reconstruction reconstruction = reconstructor_.reconstruct(images);
     const Image<double> phase = unwrapper_.unwrap(reconstruction.pupil_field);
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
+    ScreenPerformance result;
     result.wavefront = measure_wavefront(reconstruction.pupil_field, phase, reconstructor_.mask(),
                                          truth, truth_mask_, telescope_.wavelength);
     result.converged = reconstruction.converged;
     result.loops = reconstruction.loops;
     result.fractional_loops = reconstruction.fractional_loops;
     result.fft_count = reconstruction.fft_count;
+    result.seconds = elapsed.count();
+    for (const Image<double>& image : light) {
+      result.captured_energy.push_back(image.sum() / pupil_energy());
+    }
     return result;
   }
 
  private:
+  /// The light of a unit-amplitude pupil, in units of intensity times detector pixels.
+  double pupil_energy() const {
+    return double(truth_mask_.count()) / (samples_per_pixel_ * samples_per_pixel_);
+  }
+
+  std::vector<Image<double>> integrated_light(const Field<double>& pupil) const {
+    std::vector<Image<double>> images;
+    for (const Field<double>& field : light_->at_planes(pupil)) {
+      images.push_back(integrate_pixels(field, samples_per_pixel_));
+    }
+    return images;
+  }
+
+  /// The light with the detector's noise; each plane gets an equal share of the photons.
+  std::vector<Image<double>> detector_images(std::vector<Image<double>> images,
+                                             std::size_t screen) const {
+    if (detector_.photons == 0.0) return images;
+    const double photons_per_unit = detector_.photons / double(images.size()) / pupil_energy();
+    for (std::size_t plane = 0; plane < images.size(); ++plane) {
+      RandomStream stream = random_stream({options_.noise_seed, screen, noise_keys_[plane]});
+      add_noise(images[plane], photons_per_unit, detector_.read_noise, stream);
+    }
+    return images;
+  }
+
   const Telescope& telescope_;
   Detector detector_;
   SimulationOptions options_;

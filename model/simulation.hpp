@@ -5,17 +5,12 @@
 #include "model/pupil.hpp"
 #include "model/sensor_design.hpp"
 #include "model/telescope.hpp"
+#include "model/true_light.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace nlcwfs {
-
-/// Where the sensor's data come from.
-enum class TruthModel {
-  extended,  ///< light on an infinite plane, sampled finer than the detector: wrap-free
-  matched    ///< the reconstructor's own periodic grid, all of it measured (the paper's way)
-};
 
 /// The precision of the reconstruction; the data are always made in double precision.
 enum class Precision { double_precision, single_precision };
