@@ -183,15 +183,15 @@ std::string verdict_text(const Improvement& improvement, const VerifiedDesign& b
           100.0 * improvement.cost.mean / mean_and_standard_error(baseline.costs).mean);
     case Verdict::indistinguishable:
       return fmt::format(
-          "The baseline is NOT beaten: on fresh screens the best design costs {} less, which is "
+          "The baseline is NOT beaten: on fresh screens its cost minus the best design's is {}, "
           "within two standard errors of nothing.",
           with_error(improvement.cost));
     case Verdict::worse:
       break;
   }
   return fmt::format(
-      "The baseline is NOT beaten: on fresh screens the best design costs {} more. It was the best "
-      "only on the screens of the search; search on more of them (screens.count).",
+      "The baseline is NOT beaten: on fresh screens the best design that was found costs {} more. "
+      "Search longer (search.budget) or on more screens (screens.count).",
       with_error({-improvement.cost.mean, improvement.cost.standard_error}));
 }
 
