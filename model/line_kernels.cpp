@@ -1,6 +1,7 @@
 #include "model/line_kernels.hpp"
 
 #include <cmath>
+#include <limits>
 
 // One build serves every x86-64 processor and still uses the wide registers of the newer ones.
 // Sanitizers run before the loader has resolved such functions, so they do without.
@@ -53,10 +54,12 @@ NLCWFS_INLINE void replace(std::complex<Real>* field, std::ptrdiff_t stride, int
     }
   }
   const Real per_sample = Real(1) / static_cast<Real>(samples * samples);
+  // Else rounding errors would choose the phase of all the light that is measured there.
+  const Real dark = Real(64) * std::numeric_limits<Real>::epsilon();
   for (int pixel = 0; pixel < pixels; ++pixel) {
     const Real estimated = gain * std::sqrt(scale[pixel] * per_sample);
     const Real wanted = amplitude[pixel] + relaxation * (amplitude[pixel] - estimated);
-    scale[pixel] = estimated > Real(0) ? gain * wanted / estimated : Real(0);
+    scale[pixel] = estimated > dark ? gain * wanted / estimated : Real(0);
   }
   for (int row = 0; row < samples; ++row) {
     auto* values = reinterpret_cast<Real*>(field + row * stride);

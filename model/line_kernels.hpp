@@ -15,10 +15,12 @@ void multiply_line(const std::complex<float>* in, const std::complex<float>* fac
 
 /// The amplitude step for one row of detector pixels, each of samples x samples field samples.
 /// With A a pixel's measured amplitude and a the field's there (the root of its mean intensity),
-/// the field is scaled by (A + relaxation (A - a)) / a. A dark pixel has no phase to keep and stays
-/// dark.
+/// the field is scaled by (A + relaxation (A - a)) / a. A dark pixel has no phase to keep and
+/// becomes 0: one where a is below 64 rounding errors of a field of order 1, such as transforms
+/// leave in the dark surround of the pupil.
 /// @param field      the first of `samples` rows of pixels * samples values
 /// @param stride     values from one row to the next
+/// @param gain       factor to apply to the field first, such as a transform's norm
 /// @param amplitude  A of each pixel
 /// @param scratch    room for `pixels` values
 void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride, int samples,
