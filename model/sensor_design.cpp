@@ -8,10 +8,13 @@
 namespace nlcwfs {
 namespace {
 
-/// Beyond this the plane is in the far field, where a sensor of pupil-sized windows sees nothing.
 constexpr double min_fresnel_number = 0.1;
 
 }  // namespace
+
+double farthest_distance(const Telescope& telescope) {
+  return distance_at_fresnel_number(telescope, min_fresnel_number);
+}
 
 double ReconstructionOptions::relaxation(int loop) const {
   if (max_loops == 1) return relaxation_start;
@@ -27,7 +30,7 @@ void SensorDesign::validate(const Telescope& telescope) const {
     throw InputError("sensor.planes", fmt::format("{} planes", planes.size()),
                      "at least 2 distances, such as -47km,47km");
   }
-  const double farthest = std::abs(distance_at_fresnel_number(telescope, min_fresnel_number));
+  const double farthest = farthest_distance(telescope);
   for (const double plane : planes) {
     if (!(std::abs(plane) <= farthest)) {
       throw InputError("sensor.planes", plane,

@@ -43,6 +43,10 @@ struct ReconstructionOptions {
   double relaxation(int loop) const;
 };
 
+/// How far from the pupil a plane may be, m: at the Fresnel number 0.1, beyond which a sensor of
+/// pupil-sized windows sees nothing.
+double farthest_distance(const Telescope& telescope);
+
 /// A sensor: where its planes stand, how they are sampled, and how they are read.
 struct SensorDesign {
   std::vector<double> planes = {-180e3, 180e3, -47e3, 47e3};  ///< signed m, in visiting order

@@ -1,6 +1,7 @@
 #include "objectives/plane_layout.hpp"
 
 #include "model/input_error.hpp"
+#include "model/sensor_design.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,12 +22,25 @@ double length_unit(const Telescope& telescope) {
 
 bool is_equal_distance(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(a); }
 
-void require_range(const std::string& key, DistanceRange range, double least) {
+/// Planes come back from their logarithms with a rounding error, also at the ends of a range.
+bool is_within(DistanceRange range, double distance) {
+  return (distance >= range.first || is_equal_distance(distance, range.first)) &&
+         (distance <= range.second || is_equal_distance(distance, range.second));
+}
+
+void require_range(const std::string& key, DistanceRange range, double least,
+                   const Telescope& telescope) {
   const auto [min, max] = range;
   if (!(min < max) || !(min > least) || min == 0.0 || max == 0.0) {
     throw InputError(key, fmt::format("{:g}:{:g}", min, max),
                      least == 0.0 ? "min:max with 0 < min < max, such as 5km:100km"
                                   : "min:max with min < max, neither of them 0");
+  }
+  const double farthest = farthest_distance(telescope);
+  if (min < -farthest || max > farthest) {
+    throw InputError(
+        key, fmt::format("{:g}:{:g}", min, max),
+        fmt::format("min:max within +-{:.6g} m, the farthest that a plane may be", farthest));
   }
 }
 
@@ -39,8 +53,8 @@ DistanceRange default_distance_range(const Telescope& telescope) {
 
 SymmetricLayout::SymmetricLayout(const Telescope& telescope, DistanceRange near, DistanceRange far)
     : length_unit_(length_unit(telescope)), near_(near), far_(far) {
-  require_range("search.z_near", near, 0.0);
-  require_range("search.z_far", far, 0.0);
+  require_range("search.z_near", near, 0.0, telescope);
+  require_range("search.z_far", far, 0.0, telescope);
   std::vector<int> order(4);
   std::iota(order.begin(), order.end(), 0);
   do {
@@ -73,10 +87,14 @@ std::optional<SearchPoint> SymmetricLayout::point_of(const std::vector<double>& 
       !is_equal_distance(-sorted[1], sorted[2])) {
     return std::nullopt;
   }
-  SearchPoint point{
-      0, Eigen::Vector2d(std::log(sorted[2] / length_unit_), std::log(sorted[3] / length_unit_))};
-  for (; point.choice < choice_count(); ++point.choice) {
-    if (std::ranges::equal(this->planes(point), planes, is_equal_distance)) return point;
+  // Where the ranges overlap or are exchanged, the nearer pair may be the one called far.
+  for (const auto& [near, far] : {std::pair(sorted[2], sorted[3]), {sorted[3], sorted[2]}}) {
+    if (!is_within(near_, near) || !is_within(far_, far)) continue;
+    SearchPoint point{0,
+                      Eigen::Vector2d(std::log(near / length_unit_), std::log(far / length_unit_))};
+    for (; point.choice < choice_count(); ++point.choice) {
+      if (std::ranges::equal(this->planes(point), planes, is_equal_distance)) return point;
+    }
   }
   return std::nullopt;
 }
@@ -85,7 +103,7 @@ FreeLayout::FreeLayout(const Telescope& telescope, std::vector<DistanceRange> ra
     : length_unit_(length_unit(telescope)),
       nearest_plane_(default_distance_range(telescope).first) {
   for (std::size_t plane = 0; plane < ranges.size(); ++plane) {
-    require_range(fmt::format("search.z{}", plane + 1), ranges[plane], -HUGE_VAL);
+    require_range(fmt::format("search.z{}", plane + 1), ranges[plane], -HUGE_VAL, telescope);
     const auto [min, max] = ranges[plane];
     if (min < 0.0 && max > 0.0) nearest_plane_ = std::min({nearest_plane_, -0.5 * min, 0.5 * max});
   }
@@ -131,7 +149,8 @@ std::optional<SearchPoint> FreeLayout::point_of(const std::vector<double>& plane
   for (std::size_t plane = 0; plane < planes.size(); ++plane) {
     const auto [min, max] = ranges_[plane];
     const double z = planes[plane];
-    if (!(z >= min && z <= max) || std::abs(z) < (min < 0.0 && max > 0.0 ? nearest_plane_ : 0.0)) {
+    if (!is_within(ranges_[plane], z) ||
+        std::abs(z) < (min < 0.0 && max > 0.0 ? nearest_plane_ : 0.0)) {
       return std::nullopt;
     }
     double& x = point.x[static_cast<Eigen::Index>(plane)];

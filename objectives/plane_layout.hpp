@@ -35,7 +35,8 @@ DistanceRange default_distance_range(const Telescope& telescope);
 /// choices).
 class SymmetricLayout final : public PlaneLayout {
  public:
-  /// @throws InputError where a range is not 0 < min < max (in |Z|, m)
+  /// @throws InputError where a range is not 0 < min < max (in |Z|, m) or reaches beyond
+  ///         farthest_distance()
   SymmetricLayout(const Telescope& telescope, DistanceRange near, DistanceRange far);
 
   std::vector<Variable> variables() const override;
@@ -56,7 +57,8 @@ class SymmetricLayout final : public PlaneLayout {
 class FreeLayout final : public PlaneLayout {
  public:
   /// @param ranges  one per plane: signed distances in m
-  /// @throws InputError where a range is not min < max, or one of them is 0
+  /// @throws InputError where a range is not min < max, one of them is 0, or it reaches beyond
+  ///         farthest_distance()
   FreeLayout(const Telescope& telescope, std::vector<DistanceRange> ranges);
 
   std::vector<Variable> variables() const override;
