@@ -1,0 +1,70 @@
+#include "objectives/verified_design.hpp"
+
+#include "tests/objectives/tiny_simulation.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+VerifiedDesign with_costs(std::vector<double> costs) { return {{}, {}, std::move(costs)}; }
+
+TEST(Improvement, IsPairedScreenByScreen) {
+  // The screens differ by 100, the designs by 1 +- 0.5 on each: only pairs see it.
+  const Improvement found = improvement(with_costs({100.0, 200.5, 300.0, 400.5}),
+                                        with_costs({101.5, 201.0, 301.5, 401.0}));
+  EXPECT_DOUBLE_EQ(found.cost.mean, 1.0);
+  // Differences 1.5, 0.5, 1.5, 0.5: variance 1/3 over n - 1, over 4 screens.
+  EXPECT_DOUBLE_EQ(found.cost.standard_error, std::sqrt(1.0 / 12.0));
+  EXPECT_EQ(found.verdict, Verdict::better);
+}
+
+TEST(Improvement, IsAntisymmetric) {
+  const VerifiedDesign one = with_costs({1.0, 2.0, 3.5});
+  const VerifiedDesign other = with_costs({2.0, 3.1, 4.4});
+  const Improvement there = improvement(one, other);
+  const Improvement back = improvement(other, one);
+  EXPECT_DOUBLE_EQ(there.cost.mean, -back.cost.mean);
+  EXPECT_DOUBLE_EQ(there.cost.standard_error, back.cost.standard_error);
+  EXPECT_EQ(there.verdict, Verdict::better);
+  EXPECT_EQ(back.verdict, Verdict::worse);
+}
+
+TEST(Improvement, WithinTwoStandardErrorsIsNone) {
+  // Differences mean +- 1 on two screens: standard error 1.
+  const auto verdict_at = [](double mean) {
+    return improvement(with_costs({0.0, 0.0}), with_costs({mean + 1.0, mean - 1.0})).verdict;
+  };
+  EXPECT_EQ(verdict_at(2.0), Verdict::indistinguishable);
+  EXPECT_EQ(verdict_at(-2.0), Verdict::indistinguishable);
+  EXPECT_EQ(verdict_at(2.01), Verdict::better);
+  EXPECT_EQ(verdict_at(-2.01), Verdict::worse);
+}
+
+TEST(Improvement, OfADesignOnItselfIsZeroAndIndistinguishable) {
+  const VerifiedDesign design = with_costs({1.0, 5.0, 2.0});
+  const Improvement found = improvement(design, design);
+  EXPECT_EQ(found.cost.mean, 0.0);
+  EXPECT_EQ(found.cost.standard_error, 0.0);
+  EXPECT_EQ(found.verdict, Verdict::indistinguishable);
+}
+
+TEST(Verify, CostsEachScreenOfTheVerification) {
+  const Telescope telescope;
+  const Simulation simulation = tiny_simulation(telescope);
+  const SensorDesign design = tiny_design(telescope);
+  const DesignCost cost{.loop_weight = 0.7};
+  const VerifiedDesign verified = verify(design, simulation, cost);
+  EXPECT_EQ(verified.design.planes, design.planes);
+  ASSERT_EQ(verified.costs.size(), 2u);
+  for (int screen : {0, 1}) {
+    const ScreenPerformance& performance = verified.performance.screens.at(screen);
+    EXPECT_DOUBLE_EQ(verified.costs[screen], performance.wavefront.residual_wfe / 10e-9 +
+                                                 0.7 * performance.fractional_loops);
+  }
+}
+
+}  // namespace
+}  // namespace nlcwfs
