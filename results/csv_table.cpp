@@ -6,11 +6,10 @@ namespace nlcwfs {
 
 CsvTable::CsvTable(const std::vector<std::string>& columns) {
   for (const std::string& column : columns) add(column);
-  text_ += '\n';
 }
 
 CsvTable& CsvTable::row() {
-  if (!row_is_empty_ && !text_.ends_with('\n')) text_ += '\n';
+  text_ += '\n';
   row_is_empty_ = true;
   return *this;
 }

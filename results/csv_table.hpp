@@ -17,12 +17,12 @@ class CsvTable {
   CsvTable& add(double value);  ///< the shortest digits that read back as the same number
   CsvTable& add(std::string_view text);
 
-  const std::string& text() const { return text_; }
+  std::string text() const { return text_ + '\n'; }
 
  private:
   void separate();
 
-  std::string text_;
+  std::string text_;  ///< without the end of the last line
   bool row_is_empty_ = true;
 };
 

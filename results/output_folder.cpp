@@ -11,35 +11,48 @@
 #include <fmt/format.h>
 
 namespace nlcwfs {
+namespace {
+
+/// Makes a folder and its parents; false where the name is taken, also if another run makes it at
+/// the same moment.
+bool make_folder(const std::filesystem::path& folder) {
+  const auto check = [&](const std::error_code& failure) {
+    if (!failure) return;
+    throw std::runtime_error(
+        fmt::format("cannot make the output folder {}: {}", folder.string(), failure.message()));
+  };
+  std::error_code failure;
+  if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), failure);
+  check(failure);
+  const bool made = std::filesystem::create_directory(folder, failure);
+  if (failure != std::errc::file_exists) check(failure);
+  return made;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& requested) {
+  throw InputError("--output", requested.string(),
+                   "exists; name a folder that does not, nothing is ever overwritten");
+}
+
+}  // namespace
 
 OutputFolder::OutputFolder(const std::optional<std::filesystem::path>& requested,
                            std::string_view command) {
-  const auto make_parents = [](const std::filesystem::path& path) {
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-  };
-  try {
-    if (requested) {
-      path_ = *requested;
-      make_parents(path_);
-      // Fails where the folder exists, also if another run makes it at the same moment.
-      if (!std::filesystem::create_directory(path_)) require_free(path_);
-      return;
-    }
-    for (int number = 1;; ++number) {
-      path_ = std::filesystem::path("results") / fmt::format("{}-{}", command, number);
-      make_parents(path_);
-      if (std::filesystem::create_directory(path_)) return;
-    }
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw std::runtime_error(fmt::format("cannot make the output folder {}: {}", path_.string(),
-                                         error.code().message()));
+  if (requested) {
+    // Without the slash that may end it, whose parent would be the folder itself.
+    path_ = requested->has_filename() ? *requested : requested->parent_path();
+    if (!make_folder(path_)) refuse(path_);
+    return;
   }
+  int number = 1;
+  do {
+    path_ = std::filesystem::path("results") / fmt::format("{}-{}", command, number++);
+  } while (!make_folder(path_));
 }
 
 void OutputFolder::require_free(const std::filesystem::path& requested) {
   if (std::filesystem::exists(std::filesystem::symlink_status(requested))) {
-    throw InputError("--output", requested.string(),
-                     "exists; name a folder that does not, nothing is ever overwritten");
+    refuse(requested);
   }
 }
 
