@@ -1,6 +1,7 @@
 #include "results/fits_cube.hpp"
 
 #include "model/input_error.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <bit>
 #include <cstdint>
@@ -22,35 +23,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// An empty directory of its own for each test, which is also the working directory.
-class FitsCubeFile : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = std::filesystem::path(testing::TempDir()) / (std::string("fits_") + info->name());
-    std::filesystem::remove_all(directory_);
-    std::filesystem::create_directories(directory_);
-    previous_ = std::filesystem::current_path();
-    std::filesystem::current_path(directory_);
-  }
-  void TearDown() override {
-    std::filesystem::current_path(previous_);
-    std::filesystem::remove_all(directory_);
-  }
+using FitsCubeFile = ScratchFolder;
 
-  int files() const {
-    return static_cast<int>(std::distance(std::filesystem::directory_iterator(directory_), {}));
-  }
-
- private:
-  std::filesystem::path directory_;
-  std::filesystem::path previous_;
-};
-
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+int files() { return static_cast<int>(names_in(".").size()); }
 
 void save(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
