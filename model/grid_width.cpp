@@ -26,7 +26,7 @@ void validate_grid_window(std::string_view window_key, double window, std::strin
   if (std::abs(samples - nearest_even) > 1e-9 * samples) {
     throw InputError(window_key, window,
                      fmt::format("window x {} must be an even whole number of samples, but is "
-                                 "{:g}; the nearest window is {:g}",
+                                 "{:g}; the nearest window is {}",
                                  samples_key, samples, nearest_even / samples_per_diameter));
   }
 }

@@ -1,0 +1,104 @@
+#include "model/line_kernels.hpp"
+
+#include "model/array.hpp"
+#include "model/random_stream.hpp"
+
+#include <limits>
+#include <vector>
+
+#include <boost/random/uniform_real_distribution.hpp>
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+template <class Real>
+class LineKernels : public testing::Test {
+ protected:
+  using Line = Eigen::ArrayX<std::complex<Real>>;
+
+  Line random_line(Eigen::Index length) {
+    return Line::NullaryExpr(length, [&] { return std::complex<Real>(random(), random()); });
+  }
+  Real random() {
+    return boost::random::uniform_real_distribution<Real>(Real(-1), Real(1))(stream_);
+  }
+
+  RandomStream stream_ = random_stream({3});
+  const Real tolerance_ = 8 * std::numeric_limits<Real>::epsilon();
+};
+using Precisions = testing::Types<float, double>;
+TYPED_TEST_SUITE(LineKernels, Precisions);
+
+/// Lengths around the widths of vector registers.
+const std::vector<int> lengths{0, 1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33, 100, 101};
+
+TYPED_TEST(LineKernels, MultiplyIsComplexArithmetic) {
+  for (const int length : lengths) {
+    const auto in = this->random_line(length);
+    const auto factors = this->random_line(length);
+    const std::complex<TypeParam> factor(this->random(), this->random());
+    const Eigen::ArrayX<std::complex<TypeParam>> expected = in * factors * factor;
+    // One value more, which must stay.
+    Eigen::ArrayX<std::complex<TypeParam>> out(length + 1);
+    out[length] = TypeParam(9);
+    multiply_line(in.data(), factors.data(), factor, out.data(), length);
+    EXPECT_EQ(out[length], TypeParam(9));
+    auto in_place = in;
+    multiply_line(in_place.data(), factors.data(), factor, in_place.data(), length);
+    for (int i = 0; i < length; ++i) {
+      EXPECT_LT(std::abs(out[i] - expected[i]), this->tolerance_) << i << " of " << length;
+      EXPECT_EQ(in_place[i], out[i]);
+    }
+  }
+}
+
+TYPED_TEST(LineKernels, ReplaceAmplitudesIsTheRelaxedProjectionOfEachPixel) {
+  using Real = TypeParam;
+  for (const int samples : {1, 2, 3, 4}) {
+    for (const int pixels : lengths) {
+      for (const Real relaxation : {Real(0), Real(0.6), Real(-0.8)}) {
+        const int width = pixels * samples;
+        const int stride = width + 3;
+        const Real gain = Real(0.25);
+        Field<Real> field =
+            this->random_line(samples * stride).reshaped(stride, samples).transpose();
+        Eigen::ArrayX<Real> amplitude(pixels);
+        for (Real& value : amplitude) value = this->random() + Real(1);
+        // A dark pixel, and one that is measured as dark.
+        if (pixels > 2) field.middleCols(samples, samples).setZero();
+        if (pixels > 2) amplitude[2] = Real(0);
+
+        const Field<Real> before = field;
+        Eigen::ArrayX<Real> scratch(pixels);
+        replace_amplitudes(field.data(), stride, samples, gain, amplitude.data(), relaxation,
+                           scratch.data(), pixels);
+        for (int pixel = 0; pixel < pixels; ++pixel) {
+          const Field<Real> old = gain * before.middleCols(pixel * samples, samples);
+          const Real estimated = std::sqrt(old.abs2().mean());
+          const Real wanted = amplitude[pixel] + relaxation * (amplitude[pixel] - estimated);
+          const Field<Real> expected =
+              estimated > Real(0) ? Field<Real>(old * (wanted / estimated)) : old;
+          const Field<Real> replaced = field.middleCols(pixel * samples, samples);
+          EXPECT_LT((replaced - expected).abs().maxCoeff(), Real(4) * this->tolerance_);
+        }
+        EXPECT_TRUE((field.rightCols(3) == before.rightCols(3)).all());
+      }
+    }
+  }
+}
+
+TYPED_TEST(LineKernels, RoundingErrorsAreDark) {
+  using Real = TypeParam;
+  const Real epsilon = std::numeric_limits<Real>::epsilon();
+  std::vector<std::complex<Real>> field{{20 * epsilon, -20 * epsilon}, {1000 * epsilon, 0}, {0, 0}};
+  const std::vector<Real> amplitude{1, 1, 1};
+  std::vector<Real> scratch(3);
+  replace_amplitudes(field.data(), 3, 1, Real(1), amplitude.data(), Real(0), scratch.data(), 3);
+  EXPECT_EQ(field[0], std::complex<Real>(0));
+  EXPECT_NEAR(field[1].real(), 1.0, double(this->tolerance_));
+  EXPECT_EQ(field[2], std::complex<Real>(0));
+}
+
+}  // namespace
+}  // namespace nlcwfs
