@@ -53,8 +53,9 @@ double field_estimated_strehl(const Field<double>& field, const Field<double>& t
                               const PupilMask& mask) {
   const std::complex<double> overlap =
       mask.select(field * truth.conjugate(), std::complex<double>(0.0)).sum();
-  return std::norm(overlap) /
-         (mask.select(field.abs2(), 0.0).sum() * mask.select(truth.abs2(), 0.0).sum());
+  const double energies =
+      mask.select(field.abs2(), 0.0).sum() * mask.select(truth.abs2(), 0.0).sum();
+  return energies > 0.0 ? std::norm(overlap) / energies : 0.0;
 }
 
 Image<double> resample_over_mask(const Image<double>& phase, const PupilMask& mask, int samples) {

@@ -22,7 +22,8 @@ double piston_free_rms(const Image<double>& phase, const PupilMask& mask);
 double wrapped_phase_rms(const Field<double>& field, const Field<double>& reference,
                          const PupilMask& mask);
 
-/// S_F = |sum E_rec conj(E_true)|^2 / (sum |E_rec|^2 sum |E_true|^2) over the mask, 0 to 1.
+/// S_F = |sum E_rec conj(E_true)|^2 / (sum |E_rec|^2 sum |E_true|^2) over the mask, 0 to 1;
+/// 0 where a field is dark.
 /// Source: Banet et al. 2017, as used by Letchev et al. 2022, section 4.
 double field_estimated_strehl(const Field<double>& field, const Field<double>& truth,
                               const PupilMask& mask);
