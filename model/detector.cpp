@@ -19,8 +19,9 @@ void Detector::validate() const {
                      fmt::format("an even number from 4 to {}", max_grid_width));
   }
   validate_grid_window("detector.window", window, "detector.pupil_pixels", pupil_pixels);
-  if (!(photons >= 0.0) || !std::isfinite(photons)) {
-    throw InputError("detector.photons", photons, "at least 0 (0 = no photon noise)");
+  // A pixel's count is an integer of 64 bits.
+  if (!(photons >= 0.0 && photons <= 1e18)) {
+    throw InputError("detector.photons", photons, "from 0, which is no photon noise, to 1e18");
   }
   if (!(read_noise >= 0.0) || !std::isfinite(read_noise)) {
     throw InputError("detector.read_noise", read_noise, "at least 0 electrons");

@@ -37,8 +37,10 @@ TEST(Detector, NamesTheKeyAndTheValueOfWhatIsNotAllowed) {
   EXPECT_THAT(message({.window = nan}), StartsWith("detector.window = nan: "));
   EXPECT_THAT(message({.pupil_pixels = 64, .window = 4.01}),
               StartsWith("detector.window = 4.01: window x detector.pupil_pixels must be"));
-  EXPECT_THAT(message({.photons = -1.0}), StartsWith("detector.photons = -1: at least 0"));
+  EXPECT_THAT(message({.photons = -1.0}), StartsWith("detector.photons = -1: from 0"));
   EXPECT_THAT(message({.photons = nan}), StartsWith("detector.photons = nan: "));
+  EXPECT_THAT(message({.photons = 2e18}), StartsWith("detector.photons = 2e+18: "));
+  EXPECT_EQ(message({.photons = 1e18}), "");
   EXPECT_THAT(message({.photons = infinity}), StartsWith("detector.photons = inf: "));
   EXPECT_THAT(message({.photons = 1e5, .read_noise = -1.0}),
               StartsWith("detector.read_noise = -1: at least 0"));
@@ -103,7 +105,7 @@ TEST_P(PhotonNoise, AddsTheReadNoisesVariance) {
               4.0 * std::sqrt(photons + 2.0 * total * total) / width);
 }
 
-INSTANTIATE_TEST_SUITE_P(Photons, PhotonNoise, testing::Values(0.02, 1.0, 30.0, 1e4, 1e9));
+INSTANTIATE_TEST_SUITE_P(Photons, PhotonNoise, testing::Values(0.02, 1.0, 30.0, 1e4, 1e9, 1e12));
 
 TEST(Detector, ADarkPixelHasReadNoiseOnly) {
   const auto [no_mean, no_variance] = noise_moments(0.0, 100.0, 0.0, 50);
