@@ -134,8 +134,10 @@ SensorDesign Simulation::checked(SensorDesign design) const {
   const auto samples = static_cast<int>(screens_.front().rows());
   const int pixels = design.detector.pupil_pixels;
   if (options_.truth == TruthModel::matched) {
-    design.detector.window = design.reconstruction.window;
+    // The detector's own window is not used; one that always fits leaves errors to the other's key.
+    design.detector.window = 1.0;
     design.validate(telescope_);
+    design.detector.window = design.reconstruction.window;
     if (samples != pixels) {
       throw InputError("simulation.pupil_samples", samples,
                        fmt::format("a matched truth has the detector's {} samples", pixels));

@@ -1,0 +1,387 @@
+#include "model/simulation.hpp"
+
+#include "model/turbulence_screen.hpp"
+#include "tests/message_of.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr int screen_samples = 32;
+
+/// Turbulence of D/r0 = 3; the phase in rad does not depend on the telescope.
+std::vector<PhaseScreen> turbulence(int count, int samples = screen_samples) {
+  const Seeing seeing{.fried_parameter = 1.0 / 3.0};
+  return generate_screens(TurbulenceScreenGenerator(seeing, samples, 1.0, 21), count);
+}
+
+SensorDesign small_design() {
+  SensorDesign design;
+  design.planes = {-100e3, 100e3, -35e3, 35e3};
+  design.detector = {.pupil_pixels = 16, .window = 4.0};
+  design.reconstruction.window = 6.0;
+  return design;
+}
+
+/// The design on the truth's own grid.
+SensorDesign matched_design() {
+  SensorDesign design = small_design();
+  design.detector.pupil_pixels = screen_samples;
+  design.reconstruction.window = 4.0;
+  return design;
+}
+
+Performance evaluate(const SensorDesign& design, const std::vector<PhaseScreen>& screens,
+                     const SimulationOptions& options = {}, const Telescope& telescope = {}) {
+  return Simulation(telescope, screens, options).evaluate(design);
+}
+
+std::vector<PhaseScreen> changed(const std::vector<PhaseScreen>& screens,
+                                 PhaseScreen (*change)(const PhaseScreen&)) {
+  std::vector<PhaseScreen> result;
+  for (const PhaseScreen& screen : screens) result.push_back(change(screen));
+  return result;
+}
+
+/// Equal metrics in waves, up to rounding.
+void expect_equal(const Performance& result, const Performance& expected,
+                  double wavelength_ratio = 1.0) {
+  ASSERT_EQ(result.screens.size(), expected.screens.size());
+  for (std::size_t i = 0; i < expected.screens.size(); ++i) {
+    const ScreenPerformance& screen = result.screens[i];
+    const ScreenPerformance& other = expected.screens[i];
+    const double tolerance = 1e-9 * 532e-9;
+    EXPECT_NEAR(screen.wavefront.residual_wfe / wavelength_ratio, other.wavefront.residual_wfe,
+                tolerance);
+    EXPECT_NEAR(screen.wavefront.wrapped_wfe / wavelength_ratio, other.wavefront.wrapped_wfe,
+                tolerance);
+    EXPECT_NEAR(screen.wavefront.total_wfe / wavelength_ratio, other.wavefront.total_wfe,
+                tolerance);
+    EXPECT_NEAR(screen.wavefront.field_strehl, other.wavefront.field_strehl, 1e-9);
+    EXPECT_EQ(screen.converged, other.converged);
+    EXPECT_EQ(screen.loops, other.loops);
+    EXPECT_NEAR(screen.fractional_loops, other.fractional_loops, 1e-6);
+    EXPECT_EQ(screen.fft_count, other.fft_count);
+    ASSERT_EQ(screen.captured_energy.size(), other.captured_energy.size());
+    for (std::size_t plane = 0; plane < other.captured_energy.size(); ++plane) {
+      EXPECT_NEAR(screen.captured_energy[plane], other.captured_energy[plane], 1e-9);
+    }
+  }
+}
+
+/// Equal to the last bit, but for the time it took.
+void expect_identical(const Performance& result, const Performance& expected) {
+  ASSERT_EQ(result.screens.size(), expected.screens.size());
+  for (std::size_t i = 0; i < expected.screens.size(); ++i) {
+    const ScreenPerformance& screen = result.screens[i];
+    const ScreenPerformance& other = expected.screens[i];
+    EXPECT_EQ(screen.captured_energy, other.captured_energy);
+    for (const PerformanceMetric& metric : performance_metrics()) {
+      if (metric.name == "seconds") continue;
+      EXPECT_EQ(metric(screen), metric(other)) << metric.name;
+    }
+  }
+}
+
+/// Both truths, each with a design that is possible with it.
+class SimulationTruth : public testing::TestWithParam<TruthModel> {
+ protected:
+  bool matched() const { return GetParam() == TruthModel::matched; }
+
+  SensorDesign design_ = matched() ? matched_design() : small_design();
+  SimulationOptions options_{.truth = GetParam()};
+  std::vector<PhaseScreen> screens_ = turbulence(3);
+};
+
+INSTANTIATE_TEST_SUITE_P(Truths, SimulationTruth,
+                         testing::Values(TruthModel::extended, TruthModel::matched),
+                         [](const auto& truth) {
+                           return truth.param == TruthModel::matched ? "matched" : "extended";
+                         });
+
+TEST_P(SimulationTruth, DependsOnFresnelNumbersAlone) {
+  design_.reconstruction.initial_guess = InitialGuess::centroid;
+  design_.reconstruction.relaxation_start = 0.3;
+  const Telescope telescope;
+  const Performance expected = evaluate(design_, screens_, options_);
+  for (const Telescope& other : {Telescope{.diameter = 8.2, .wavelength = 532e-9},
+                                 Telescope{.diameter = 0.5, .wavelength = 1.65e-6},
+                                 Telescope{.diameter = 0.01, .wavelength = 400e-9}}) {
+    SensorDesign scaled = design_;
+    for (double& plane : scaled.planes) plane = scaled_distance(plane, telescope, other);
+    const double wavelength_ratio = other.wavelength / telescope.wavelength;
+    scaled.reconstruction.tolerance *= wavelength_ratio;
+    expect_equal(evaluate(scaled, screens_, options_, other), expected, wavelength_ratio);
+  }
+}
+
+TEST_P(SimulationTruth, IsTheSameToTheLastBitForAnyNumberOfThreads) {
+  design_.detector.photons = 1e5;
+  design_.detector.read_noise = 1.0;
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return evaluate(design_, turbulence(6), options_);
+  };
+  const Performance expected = with_threads(1);
+  expect_identical(with_threads(2), expected);
+  expect_identical(with_threads(4), expected);
+}
+
+TEST_P(SimulationTruth, AScreensResultDoesNotDependOnTheOthers) {
+  design_.detector.photons = 1e5;
+  const Performance all = evaluate(design_, screens_, options_);
+  Performance first = all;
+  first.screens.resize(1);
+  expect_identical(evaluate(design_, {screens_[0]}, options_), first);
+}
+
+TEST_P(SimulationTruth, SinglePrecisionAgreesWithDouble) {
+  SimulationOptions single = options_;
+  single.precision = Precision::single_precision;
+  const Performance expected = evaluate(design_, screens_, options_);
+  const Performance result = evaluate(design_, screens_, single);
+  for (std::size_t i = 0; i < screens_.size(); ++i) {
+    EXPECT_NEAR(result.screens[i].wavefront.residual_wfe,
+                expected.screens[i].wavefront.residual_wfe, 0.02e-9);
+    EXPECT_NEAR(result.screens[i].loops, expected.screens[i].loops, 1);
+    EXPECT_EQ(result.screens[i].captured_energy, expected.screens[i].captured_energy);
+  }
+}
+
+TEST_P(SimulationTruth, ConjugateLightMirrorsThePlanes) {
+  const Performance expected = evaluate(design_, screens_, options_);
+  for (double& plane : design_.planes) plane = -plane;
+  const auto conjugate =
+      changed(screens_, [](const PhaseScreen& phase) { return (-phase).eval(); });
+  expect_equal(evaluate(design_, conjugate, options_), expected);
+}
+
+TEST_P(SimulationTruth, FlippedAndTransposedScreensDoAsWell) {
+  const Performance expected = evaluate(design_, screens_, options_);
+  using Change = PhaseScreen (*)(const PhaseScreen&);
+  for (const Change change :
+       {Change([](const PhaseScreen& phase) { return PhaseScreen(phase.rowwise().reverse()); }),
+        Change([](const PhaseScreen& phase) { return PhaseScreen(phase.colwise().reverse()); }),
+        Change([](const PhaseScreen& phase) { return PhaseScreen(phase.transpose()); })}) {
+    expect_equal(evaluate(design_, changed(screens_, change), options_), expected);
+  }
+}
+
+TEST_P(SimulationTruth, APistonIsNotSeen) {
+  const auto lifted =
+      changed(screens_, [](const PhaseScreen& phase) { return (phase + 2.5).eval(); });
+  expect_equal(evaluate(design_, lifted, options_), evaluate(design_, screens_, options_));
+}
+
+TEST_P(SimulationTruth, NoiseDoesNotDependOnTheVisitingOrder) {
+  // With a first estimate that stays as it is, the centroids' tilt is all that noise can change;
+  // it does not depend on the order but for rounding.
+  design_.detector.photons = 1e4;
+  design_.reconstruction.initial_guess = InitialGuess::centroid;
+  design_.reconstruction.max_loops = 1;
+  design_.reconstruction.relaxation_start = design_.reconstruction.relaxation_end = -1.0 + 1e-12;
+  const Performance expected = evaluate(design_, screens_, options_);
+  design_.planes = {35e3, -100e3, -35e3, 100e3};
+  const Performance result = evaluate(design_, screens_, options_);
+  SimulationOptions reseeded = options_;
+  reseeded.noise_seed = 2;
+  const Performance other = evaluate(design_, screens_, reseeded);
+  for (std::size_t i = 0; i < screens_.size(); ++i) {
+    const double residual = expected.screens[i].wavefront.residual_wfe;
+    EXPECT_NEAR(result.screens[i].wavefront.residual_wfe, residual, 1e-9 * residual);
+    EXPECT_GT(std::abs(other.screens[i].wavefront.residual_wfe - residual), 1e-5 * residual);
+  }
+}
+
+TEST_P(SimulationTruth, PhotonNoiseRaisesTheResidual) {
+  const auto residual = [&](double photons, double read_noise) {
+    design_.detector.photons = photons;
+    design_.detector.read_noise = read_noise;
+    return evaluate(design_, screens_, options_)
+        .mean_of([](const ScreenPerformance& screen) { return screen.wavefront.residual_wfe; })
+        .mean;
+  };
+  // Not even the best of sensors does better than M / (4 N) rad^2 with M pupil pixels and N
+  // photons.
+  const auto pixels = double(pupil_mask(design_.detector.pupil_pixels, 0.0).count());
+  for (const double photons : {1e3, 1e4, 1e5}) {
+    const double best = std::sqrt(pixels / (4.0 * photons)) * 532e-9 / (2.0 * std::numbers::pi);
+    EXPECT_GT(residual(photons, 0.0), best);
+    EXPECT_GT(residual(photons, 0.0), 1.1 * residual(10.0 * photons, 0.0));
+    EXPECT_GT(residual(photons, 3.0), 1.2 * residual(photons, 0.0));
+  }
+  // So many photons are none.
+  EXPECT_NEAR(residual(1e16, 0.0), residual(0.0, 0.0), 0.01e-9);
+}
+
+TEST_P(SimulationTruth, BearsAlmostNoPhotons) {
+  design_.detector.photons = 1e-3;
+  const Performance result = evaluate(design_, screens_, options_);
+  for (const ScreenPerformance& screen : result.screens) {
+    for (const PerformanceMetric& metric : performance_metrics()) {
+      EXPECT_TRUE(std::isfinite(metric(screen))) << metric.name;
+    }
+  }
+}
+
+TEST_P(SimulationTruth, APlaneAtThePupilCapturesAllAndKeepsTheSymmetry) {
+  design_.planes = {0.0, -60e3, 60e3};
+  const Performance first = evaluate(design_, screens_, options_);
+  for (const ScreenPerformance& screen : first.screens) {
+    EXPECT_NEAR(screen.captured_energy[0], 1.0, 1e-12);
+  }
+  const Performance conjugate = [&] {
+    design_.planes = {0.0, 60e3, -60e3};
+    return evaluate(design_,
+                    changed(screens_, [](const PhaseScreen& phase) { return (-phase).eval(); }),
+                    options_);
+  }();
+  expect_equal(conjugate, first);
+}
+
+TEST(Simulation, CapturedEnergyGrowsWithTheWindowToOne) {
+  SensorDesign design = small_design();
+  design.reconstruction.window = 16.0;
+  design.reconstruction.max_loops = 1;
+  const auto screens = turbulence(2);
+  std::vector<double> before(4, 0.0);
+  for (const double window : {1.0, 2.0, 4.0, 8.0, 16.0}) {
+    design.detector.window = window;
+    const std::vector<double> energy = evaluate(design, screens).captured_energy();
+    ASSERT_EQ(energy.size(), 4U);
+    for (std::size_t plane = 0; plane < 4; ++plane) {
+      EXPECT_GT(energy[plane], before[plane]);
+      EXPECT_LE(energy[plane], 1.0);
+    }
+    before = energy;
+  }
+  for (const double energy : before) EXPECT_GT(energy, 0.95);
+}
+
+TEST(Simulation, AMatchedDetectorCapturesAllTheLight) {
+  for (const double energy :
+       evaluate(matched_design(), turbulence(2), {.truth = TruthModel::matched})
+           .captured_energy()) {
+    EXPECT_NEAR(energy, 1.0, 1e-12);
+  }
+}
+
+TEST(Simulation, AMatchedTruthIsReachedAndAnExtendedOneIsNot) {
+  // The inverse crime, which is why the extended truth is the default.
+  SensorDesign design = matched_design();
+  design.reconstruction.max_loops = 40;
+  const auto residual = [&](TruthModel truth) {
+    return evaluate(design, turbulence(3), {.truth = truth})
+        .mean_of([](const ScreenPerformance& screen) { return screen.wavefront.residual_wfe; })
+        .mean;
+  };
+  EXPECT_LT(residual(TruthModel::matched), 1e-9);
+  EXPECT_GT(residual(TruthModel::extended), 3.0 * residual(TruthModel::matched));
+}
+
+TEST(Simulation, AFinerTruthOfTheSameDesignEndsNearby) {
+  // As a verification does: the screens' own block means are what the coarser truth sees.
+  SensorDesign design = small_design();
+  design.planes = {-60e3, 60e3, -25e3, 25e3};
+  const auto fine = turbulence(3, 2 * screen_samples);
+  const auto coarse =
+      changed(fine, [](const PhaseScreen& phase) { return block_average(phase, 2).eval(); });
+  const auto residual = [&](const std::vector<PhaseScreen>& screens) {
+    const Simulation simulation({}, screens, {});
+    EXPECT_EQ(simulation.truth_samples(), screens.front().rows());
+    return simulation.evaluate(design)
+        .mean_of([](const ScreenPerformance& screen) { return screen.wavefront.residual_wfe; })
+        .mean;
+  };
+  const double of_coarse = residual(coarse);
+  const double of_fine = residual(fine);
+  EXPECT_NEAR(of_fine / of_coarse, 1.0, 0.1);
+  EXPECT_NE(of_fine, of_coarse);
+}
+
+TEST(Simulation, SeesADesignAsItIsSimulated) {
+  SensorDesign design = matched_design();
+  design.detector.window = 2.0;
+  const auto screens = turbulence(1);
+  EXPECT_EQ(Simulation({}, screens, {.truth = TruthModel::matched}).checked(design).detector.window,
+            4.0);
+  EXPECT_EQ(Simulation({}, screens, {}).checked(design).detector.window, 2.0);
+}
+
+TEST(Simulation, NamesWhatDoesNotFitTheTruth) {
+  const auto screens = turbulence(1);
+  const Simulation extended({}, screens, {});
+  const auto refusal = [&](const Simulation& simulation, const SensorDesign& design) {
+    const std::string message = message_of([&] { (void)simulation.checked(design); });
+    EXPECT_EQ(message_of([&] { (void)simulation.evaluate(design); }), message);
+    return message;
+  };
+  EXPECT_EQ(message_of([&] { (void)extended.checked(small_design()); }), "");
+
+  SensorDesign design = small_design();
+  design.detector.pupil_pixels = 12;
+  EXPECT_THAT(refusal(extended, design),
+              StartsWith("simulation.pupil_samples = 32: a multiple of detector.pupil_pixels, "
+                         "which is 12"));
+  design.detector.pupil_pixels = 64;
+  EXPECT_THAT(refusal(extended, design), StartsWith("simulation.pupil_samples = 32: "));
+
+  design = small_design();
+  design.reconstruction.oversampling = 3;
+  EXPECT_THAT(refusal(extended, design), AllOf(StartsWith("reconstruction.oversampling = 3: "),
+                                               HasSubstr("which is 48"), HasSubstr("which is 32")));
+  for (const int oversampling : {1, 2, 4}) {
+    design.reconstruction.oversampling = oversampling;
+    EXPECT_EQ(message_of([&] { (void)extended.checked(design); }), "");
+  }
+
+  design = small_design();
+  design.planes = {35e3};
+  EXPECT_THAT(refusal(extended, design), StartsWith("sensor.planes = "));
+  design = small_design();
+  design.detector.window = 3.99;
+  EXPECT_THAT(refusal(extended, design), StartsWith("detector.window = 3.99: "));
+}
+
+TEST(Simulation, NamesWhatDoesNotFitAMatchedTruth) {
+  const Simulation matched({}, turbulence(1), {.truth = TruthModel::matched});
+  const auto refusal = [&](const SensorDesign& design) {
+    return message_of([&] { (void)matched.evaluate(design); });
+  };
+  SensorDesign design = matched_design();
+  EXPECT_EQ(message_of([&] { (void)matched.checked(design); }), "");
+  design.detector.pupil_pixels = 16;
+  EXPECT_THAT(refusal(design),
+              StartsWith("simulation.pupil_samples = 32: a matched truth has the detector's 16"));
+  design = matched_design();
+  design.reconstruction.oversampling = 2;
+  EXPECT_THAT(refusal(design), StartsWith("reconstruction.oversampling = 2: 1 with a matched"));
+  // The window that counts is the reconstruction's; the detector's own is not looked at.
+  design = matched_design();
+  design.reconstruction.window = 0.5;
+  EXPECT_THAT(refusal(design), StartsWith("reconstruction.window = 0.5: "));
+  design = matched_design();
+  design.detector.window = 0.5;
+  EXPECT_EQ(message_of([&] { (void)matched.checked(design); }), "");
+}
+
+TEST(Simulation, NeedsAScreenAndATelescope) {
+  EXPECT_THAT(message_of([] { Simulation({}, {}, {}); }),
+              StartsWith("screens.count = 0: at least 1"));
+  EXPECT_THAT(message_of([] { Simulation({.diameter = -1.0}, turbulence(1), {}); }),
+              StartsWith("telescope.diameter = -1: "));
+}
+
+}  // namespace
+}  // namespace nlcwfs
