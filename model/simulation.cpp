@@ -122,6 +122,41 @@ Performance run_all(const Telescope& telescope, const SensorDesign& design,
 
 }  // namespace
 
+SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, TruthModel truth,
+                              int truth_samples) {
+  const int pixels = design.detector.pupil_pixels;
+  if (truth == TruthModel::matched) {
+    // The detector's own window is not used; one that always fits leaves errors to the other's key.
+    design.detector.window = 1.0;
+    design.validate(telescope);
+    design.detector.window = design.reconstruction.window;
+    if (truth_samples != pixels) {
+      throw InputError("simulation.pupil_samples", truth_samples,
+                       fmt::format("a matched truth has the detector's {} samples", pixels));
+    }
+    if (design.reconstruction.oversampling != 1) {
+      throw InputError("reconstruction.oversampling", design.reconstruction.oversampling,
+                       "1 with a matched truth, whose grid is the reconstruction's");
+    }
+    return design;
+  }
+  design.validate(telescope);
+  if (truth_samples % pixels != 0) {
+    throw InputError("simulation.pupil_samples", truth_samples,
+                     fmt::format("a multiple of detector.pupil_pixels, which is {}", pixels));
+  }
+  if (truth_samples % design.pupil_samples() != 0 && design.pupil_samples() % truth_samples != 0) {
+    throw InputError("reconstruction.oversampling", design.reconstruction.oversampling,
+                     fmt::format("detector.pupil_pixels x reconstruction.oversampling, which is "
+                                 "{}, must be a multiple or a divisor of "
+                                 "simulation.pupil_samples, which is {}",
+                                 design.pupil_samples(), truth_samples));
+  }
+  validate_grid_window("detector.window", design.detector.window, "simulation.pupil_samples",
+                       truth_samples);
+  return design;
+}
+
 Simulation::Simulation(const Telescope& telescope, std::vector<PhaseScreen> screens,
                        const SimulationOptions& options)
     : telescope_(telescope), screens_(std::move(screens)), options_(options) {
@@ -131,38 +166,7 @@ Simulation::Simulation(const Telescope& telescope, std::vector<PhaseScreen> scre
 }
 
 SensorDesign Simulation::checked(SensorDesign design) const {
-  const auto samples = static_cast<int>(screens_.front().rows());
-  const int pixels = design.detector.pupil_pixels;
-  if (options_.truth == TruthModel::matched) {
-    // The detector's own window is not used; one that always fits leaves errors to the other's key.
-    design.detector.window = 1.0;
-    design.validate(telescope_);
-    design.detector.window = design.reconstruction.window;
-    if (samples != pixels) {
-      throw InputError("simulation.pupil_samples", samples,
-                       fmt::format("a matched truth has the detector's {} samples", pixels));
-    }
-    if (design.reconstruction.oversampling != 1) {
-      throw InputError("reconstruction.oversampling", design.reconstruction.oversampling,
-                       "1 with a matched truth, whose grid is the reconstruction's");
-    }
-    return design;
-  }
-  design.validate(telescope_);
-  if (samples % pixels != 0) {
-    throw InputError("simulation.pupil_samples", samples,
-                     fmt::format("a multiple of detector.pupil_pixels, which is {}", pixels));
-  }
-  if (samples % design.pupil_samples() != 0 && design.pupil_samples() % samples != 0) {
-    throw InputError("reconstruction.oversampling", design.reconstruction.oversampling,
-                     fmt::format("detector.pupil_pixels x reconstruction.oversampling, which is "
-                                 "{}, must be a multiple or a divisor of "
-                                 "simulation.pupil_samples, which is {}",
-                                 design.pupil_samples(), samples));
-  }
-  validate_grid_window("detector.window", design.detector.window, "simulation.pupil_samples",
-                       samples);
-  return design;
+  return simulated_design(std::move(design), telescope_, options_.truth, truth_samples());
 }
 
 Performance Simulation::evaluate(const SensorDesign& design) const {

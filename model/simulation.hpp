@@ -22,6 +22,13 @@ struct SimulationOptions {
   std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
 };
 
+/// A design as it is simulated: with a matched truth the detector is as wide as the reconstruction
+/// grid.
+/// @param truth_samples  of the true field across the diameter
+/// @throws InputError where the design is not valid or does not fit the truth's samples
+SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, TruthModel truth,
+                              int truth_samples);
+
 /// Judges sensor designs on a fixed set of wavefronts: pupil field -> propagation to each plane ->
 /// detector images -> Gerchberg-Saxton reconstruction -> unwrapping -> metrics.
 ///
@@ -37,9 +44,7 @@ class Simulation {
   /// @throws InputError where the design is not valid or does not fit the truth's samples
   Performance evaluate(const SensorDesign& design) const;
 
-  /// The design as it is simulated: in matched mode the detector is as wide as the reconstruction
-  /// grid.
-  /// @throws InputError as evaluate does
+  /// See simulated_design.
   SensorDesign checked(SensorDesign design) const;
 
   const Telescope& telescope() const { return telescope_; }

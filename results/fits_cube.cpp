@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -136,6 +137,11 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key)
       refuse(fmt::format("its slices are {} x {}, not square", shape[0], shape[1]));
     }
     if (shape[0] == 0 || shape[2] == 0) refuse("it is empty");
+    if (double(shape[0]) * double(shape[1]) * double(shape[2]) * sizeof(double) >
+        max_image_memory) {
+      refuse(fmt::format("its {} x {} x {} values take more than {:g} GiB of memory", shape[0],
+                         shape[1], shape[2], max_image_memory / std::exp2(30)));
+    }
     cube.unit = read_unit(file.get());
 
     std::array<LONGLONG, 3> first{1, 1, 1};

@@ -1,10 +1,12 @@
 #include "studies/settings.hpp"
 
+#include "model/grid_width.hpp"
 #include "model/input_error.hpp"
 #include "model/screen_resampling.hpp"
 #include "model/turbulence_screen.hpp"
 #include "results/fits_cube.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -40,6 +42,32 @@ int truth_samples(const Configuration& configuration) {
                                                          : "simulation.pupil_samples");
 }
 
+/// Refuses more screens than memory is allowed for, before they are made.
+/// @param key, value  what asks for so many
+template <class Value>
+void require_memory(std::string_view key, const Value& value, int count, int samples) {
+  const double bytes_per_screen = double(samples) * samples * sizeof(double);
+  if (count * bytes_per_screen <= max_image_memory) return;
+  throw InputError(
+      key, value,
+      fmt::format("{} screens of {} x {} samples take {:.3g} GiB of memory; at most {:.0f} of them "
+                  "fit into the {:g} GiB allowed",
+                  count, samples, samples, count * bytes_per_screen / std::exp2(30),
+                  std::floor(max_image_memory / bytes_per_screen),
+                  max_image_memory / std::exp2(30)));
+}
+
+std::vector<PhaseScreen> simulated_screens(const Configuration& configuration,
+                                           const Telescope& telescope, int samples,
+                                           std::string_view count_key, std::string_view seed_key) {
+  const int count = configuration.integer(count_key);
+  require_memory(count_key, count, count, samples);
+  return generate_screens(
+      TurbulenceScreenGenerator(seeing_of(configuration, telescope), samples, telescope.diameter,
+                                configuration.seed(seed_key)),
+      count);
+}
+
 std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
                                            int samples, std::vector<std::string>& notes) {
   FitsCube cube = read_fits_cube(file, "screens.file");
@@ -52,6 +80,7 @@ std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telesc
   }
   const auto size = static_cast<int>(cube.slices.front().rows());
   if (size < 2) throw InputError("screens.file", file, "at least 2 x 2 samples");
+  require_memory("screens.file", file, static_cast<int>(cube.slices.size()), samples);
   if (size != samples) {
     notes.push_back(fmt::format("{}: {} x {} samples were resampled to the truth's {} x {}", file,
                                 size, size, samples, samples));
@@ -188,15 +217,16 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
   if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
     return screens_from_file(file, telescope, samples, notes);
   }
-  return generate_screens(
-      TurbulenceScreenGenerator(seeing_of(configuration, telescope), samples, telescope.diameter,
-                                configuration.seed("screens.seed")),
-      configuration.integer("screens.count"));
+  return simulated_screens(configuration, telescope, samples, "screens.count", "screens.seed");
 }
 
 Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes) {
-  return Simulation(telescope_of(configuration), screens_of(configuration, notes),
-                    simulation_options_of(configuration));
+  const Telescope telescope = telescope_of(configuration);
+  const SimulationOptions options = simulation_options_of(configuration);
+  // Before the screens, which may take long.
+  simulated_design(design_of(configuration), telescope, options.truth,
+                   truth_samples(configuration));
+  return Simulation(telescope, screens_of(configuration, notes), options);
 }
 
 Simulation verification_of(const Configuration& configuration) {
@@ -211,12 +241,20 @@ Simulation verification_of(const Configuration& configuration) {
   options.precision = Precision::double_precision;
   options.noise_seed = seed;
   if (factor > 1) options.truth = TruthModel::extended;
+  const double window =
+      configuration.number(is_matched(configuration) ? "reconstruction.window" : "detector.window");
+  const double search_width = window * truth_samples(configuration);
+  if (factor * search_width > max_grid_width) {
+    throw InputError(
+        "verify.truth_factor", factor,
+        fmt::format("at most {:g}: the search's true field is {:g} samples wide, and "
+                    "at most {} are allowed",
+                    std::floor(max_grid_width / search_width), search_width, max_grid_width));
+  }
   return Simulation(
       telescope,
-      generate_screens(TurbulenceScreenGenerator(seeing_of(configuration, telescope),
-                                                 truth_samples(configuration) * factor,
-                                                 telescope.diameter, seed),
-                       configuration.integer("verify.screens")),
+      simulated_screens(configuration, telescope, truth_samples(configuration) * factor,
+                        "verify.screens", "verify.seed"),
       options);
 }
 
