@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace nlcwfs {
 namespace {
 
@@ -14,6 +17,22 @@ constexpr double min_fresnel_number = 0.1;
 
 double farthest_distance(const Telescope& telescope) {
   return distance_at_fresnel_number(telescope, min_fresnel_number);
+}
+
+void validate_planes(std::string_view key, const std::vector<double>& planes,
+                     const Telescope& telescope) {
+  if (planes.size() < 2) {
+    throw InputError(key, fmt::format("{}", fmt::join(planes, ",")),
+                     "at least 2 distances, such as -47km,47km");
+  }
+  const double farthest = farthest_distance(telescope);
+  for (const double plane : planes) {
+    if (!(std::abs(plane) <= farthest)) {
+      throw InputError(key, plane,
+                       fmt::format("distances within +-{:.6g} m, where the Fresnel number is {}",
+                                   farthest, min_fresnel_number));
+    }
+  }
 }
 
 double ReconstructionOptions::relaxation(int loop) const {
@@ -26,18 +45,7 @@ int SensorDesign::grid_width() const {
 }
 
 void SensorDesign::validate(const Telescope& telescope) const {
-  if (planes.size() < 2) {
-    throw InputError("sensor.planes", fmt::format("{} planes", planes.size()),
-                     "at least 2 distances, such as -47km,47km");
-  }
-  const double farthest = farthest_distance(telescope);
-  for (const double plane : planes) {
-    if (!(std::abs(plane) <= farthest)) {
-      throw InputError("sensor.planes", plane,
-                       fmt::format("distances within +-{:.6g} m, where the Fresnel number is {}",
-                                   farthest, min_fresnel_number));
-    }
-  }
+  validate_planes("sensor.planes", planes, telescope);
   detector.validate();
   if (reconstruction.max_loops < 1 || reconstruction.max_loops > 10000) {
     throw InputError("reconstruction.max_loops", reconstruction.max_loops, "from 1 to 10000");

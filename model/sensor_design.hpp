@@ -4,6 +4,7 @@
 #include "model/phase_unwrapping.hpp"
 #include "model/telescope.hpp"
 
+#include <string_view>
 #include <vector>
 
 namespace nlcwfs {
@@ -46,6 +47,12 @@ struct ReconstructionOptions {
 /// How far from the pupil a plane may be, m: at the Fresnel number 0.1, beyond which a sensor of
 /// pupil-sized windows sees nothing.
 double farthest_distance(const Telescope& telescope);
+
+/// Demands at least 2 planes, none beyond farthest_distance().
+/// @param key  the key that holds the planes
+/// @throws InputError naming `key`
+void validate_planes(std::string_view key, const std::vector<double>& planes,
+                     const Telescope& telescope);
 
 /// A sensor: where its planes stand, how they are sampled, and how they are read.
 struct SensorDesign {

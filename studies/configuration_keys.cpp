@@ -283,10 +283,6 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::length_range,
        .description = "Where plane 6 of a free layout is searched, signed.",
        .example = "5km:200km"},
-      {.name = "search.order",
-       .kind = Kind::text,
-       .description = "Visiting orders of the planes that the search may choose from. Not set: as "
-                      "the layout has them."},
 
       {.name = "baseline.planes",
        .kind = Kind::length_list,

@@ -168,6 +168,7 @@ SensorDesign baseline_of(const Configuration& configuration) {
   SensorDesign design = design_of(configuration);
   const auto [relaxation_start, relaxation_end] = configuration.ramp("baseline.relaxation");
   design.planes = configuration.lengths("baseline.planes");
+  validate_planes("baseline.planes", design.planes, telescope_of(configuration));
   design.reconstruction.relaxation_start = relaxation_start;
   design.reconstruction.relaxation_end = relaxation_end;
   design.reconstruction.initial_guess = initial_guess_of(configuration, "baseline.initial_guess");
@@ -188,14 +189,28 @@ DesignCost cost_of(const Configuration& configuration) {
 std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
                                        const Telescope& telescope) {
   const auto [nearest, farthest] = default_distance_range(telescope);
-  if (configuration.choice("search.layout") == "symmetric") {
+  const bool is_symmetric = configuration.choice("search.layout") == "symmetric";
+  const int plane_count = configuration.integer("search.plane_count");
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (!key.name.starts_with("search.z") || !configuration.is_set(key.name)) continue;
+    const bool is_pair = key.name == "search.z_near" || key.name == "search.z_far";
+    if (is_pair != is_symmetric) {
+      throw InputError(key.name, configuration.value_text(key.name),
+                       fmt::format("is for search.layout = {}", is_pair ? "symmetric" : "free"));
+    }
+    if (!is_pair && key.name > fmt::format("search.z{}", plane_count)) {
+      throw InputError(key.name, configuration.value_text(key.name),
+                       fmt::format("there are {} planes, see search.plane_count", plane_count));
+    }
+  }
+  if (is_symmetric) {
     const DistanceRange both{nearest, farthest};
     return std::make_unique<SymmetricLayout>(
         telescope, configuration.length_range("search.z_near").value_or(both),
         configuration.length_range("search.z_far").value_or(both));
   }
   std::vector<DistanceRange> ranges;
-  for (int plane = 1; plane <= configuration.integer("search.plane_count"); ++plane) {
+  for (int plane = 1; plane <= plane_count; ++plane) {
     ranges.push_back(configuration.length_range(fmt::format("search.z{}", plane))
                          .value_or(DistanceRange{-farthest, farthest}));
   }
