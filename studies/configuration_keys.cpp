@@ -330,8 +330,9 @@ std::vector<ConfigurationKey> make_keys() {
        .example = "850nm"},
       {.name = "scale.relay_beam_diameter",
        .kind = Kind::length,
-       .description = "Beam diameter behind a relay at the telescope that a design is moved to; "
-                      "where set, distances on the bench are printed too.",
+       .description =
+           "Beam diameter behind a relay at the telescope that a design is moved to. Not "
+           "set: as telescope.relay_beam_diameter.",
        .bounds = above(0),
        .example = "10mm"},
   };

@@ -5,6 +5,8 @@
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -23,7 +25,7 @@ Telescope scaled_telescope_of(const Configuration& configuration, Telescope tele
   }
   telescope.diameter = diameter.value_or(telescope.diameter);
   telescope.wavelength = wavelength.value_or(telescope.wavelength);
-  telescope.relay_beam_diameter = relay;
+  if (relay) telescope.relay_beam_diameter = relay;
   telescope.validate();
   return telescope;
 }
@@ -60,7 +62,19 @@ void run_scale(const CommandLine& command_line) {
   if (target_seeing.outer_scale) {
     set("seeing.outer_scale", fmt::format("{}", *target_seeing.outer_scale));
   }
-  set("sensor.planes", fmt::format("{}", fmt::join(scaled.planes, ",")));
+  // Every distance, so that the file also searches at the new telescope.
+  const auto moved = [&](double distance) { return scaled_distance(distance, telescope, target); };
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (key.kind == Kind::length_list) {
+      std::vector<double> planes = configuration.lengths(key.name);
+      std::ranges::transform(planes, planes.begin(), moved);
+      set(key.name, fmt::format("{}", fmt::join(planes, ",")));
+    } else if (key.kind == Kind::length_range) {
+      if (const auto range = configuration.length_range(key.name)) {
+        set(key.name, fmt::format("{}:{}", moved(range->first), moved(range->second)));
+      }
+    }
+  }
   set("reconstruction.tolerance", fmt::format("{}", scaled.reconstruction.tolerance));
   record.folder().write("scaled.cfg", scaled_configuration.dump());
   record.write_summary({{"design", to_json(design, telescope, seeing.fried_parameter)},
