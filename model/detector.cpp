@@ -10,6 +10,12 @@
 #include <boost/random/poisson_distribution.hpp>
 
 namespace nlcwfs {
+namespace {
+
+/// Counts beyond this would not be exact in a double.
+constexpr double max_photons = 1e15;
+
+}  // namespace
 
 int Detector::width() const { return grid_width(window, pupil_pixels); }
 
@@ -19,9 +25,9 @@ void Detector::validate() const {
                      fmt::format("an even number from 4 to {}", max_grid_width));
   }
   validate_grid_window("detector.window", window, "detector.pupil_pixels", pupil_pixels);
-  // A pixel's count is an integer of 64 bits.
-  if (!(photons >= 0.0 && photons <= 1e18)) {
-    throw InputError("detector.photons", photons, "from 0, which is no photon noise, to 1e18");
+  if (!(photons >= 0.0 && photons <= max_photons)) {
+    throw InputError("detector.photons", photons,
+                     fmt::format("from 0 (= no photon noise) to {:g}", max_photons));
   }
   if (!(read_noise >= 0.0) || !std::isfinite(read_noise)) {
     throw InputError("detector.read_noise", read_noise, "at least 0 electrons");
