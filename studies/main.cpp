@@ -6,10 +6,13 @@
 #include "studies/text.hpp"
 #include "studies/version.hpp"
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <map>
+#include <new>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -53,12 +56,20 @@ void run(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
   try {
     run(argc, argv);
+    if (std::fflush(stdout) != 0) {
+      throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
+    }
     return done;
   } catch (const nlcwfs::InputError& error) {
-    fmt::print(stderr, "nlcwfs: {}\n", nlcwfs::one_line(error.what()));
+    fmt::print(stderr, "nlcwfs: {}\n", nlcwfs::without_controls(error.what()));
     return bad_input;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "nlcwfs: failed: there is not enough memory; ask for fewer screens, or "
+               "smaller windows of fewer samples\n");
+    return run_failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "nlcwfs: failed: {}\n", nlcwfs::one_line(error.what()));
+    fmt::print(stderr, "nlcwfs: failed: {}\n", nlcwfs::without_controls(error.what()));
     return run_failed;
   }
 }

@@ -69,8 +69,10 @@ void run_screens(const CommandLine& command_line) {
   std::vector<FitsKeyword> keywords{
       {"DIAMETER", telescope.diameter, "[m] pupil diameter = width of the square"},
       {"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"},
-      {"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"},
-      {"SEED", configuration.seed("screens.seed"), "seed of the screens"}};
+      {"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"}};
+  if (configuration.text("screens.file").empty()) {
+    keywords.push_back({"SEED", configuration.seed("screens.seed"), "seed of the screens"});
+  }
   if (seeing.outer_scale) keywords.push_back({"L0", *seeing.outer_scale, "[m] outer scale"});
   record.folder().write("structure_function.csv",
                         structure_function_table(screens, telescope.diameter / samples, seeing));

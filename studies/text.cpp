@@ -46,11 +46,16 @@ bool is_control(char character) {
   return code < 0x20 || code == 0x7f;
 }
 
+std::string without_controls(std::string_view text) {
+  std::string line(text);
+  std::ranges::replace_if(line, is_control, '?');
+  return line;
+}
+
 std::string one_line(std::string_view text) {
   if (text.empty()) return "(nothing)";
   constexpr std::size_t longest = 200;
-  std::string line(text.substr(0, longest));
-  std::ranges::replace_if(line, is_control, '?');
+  const std::string line = without_controls(text.substr(0, longest));
   return text.size() > longest ? line + "..." : line;
 }
 

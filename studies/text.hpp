@@ -12,8 +12,11 @@ std::string_view trimmed(std::string_view text);
 /// Whether a byte is an ASCII control character, such as a tab or a line end.
 bool is_control(char character);
 
-/// The text fit for one line of a message: control characters become '?', a long text is cut, an
-/// empty one is "(nothing)".
+/// The text on one line: control characters become '?'.
+std::string without_controls(std::string_view text);
+
+/// A value fit for one line of a message: without control characters, a long text is cut, an empty
+/// one is "(nothing)".
 std::string one_line(std::string_view text);
 
 /// The word that a user most likely meant: the one with the smallest edit distance to `word`; the
