@@ -20,6 +20,11 @@ TEST(Text, OneLineIsOneLineWhateverComes) {
   EXPECT_EQ(one_line(std::string(100000, 'x')), std::string(200, 'x') + "...");
 }
 
+TEST(Text, WithoutControlsKeepsTheWholeMessage) {
+  EXPECT_EQ(without_controls("a\tb\n" + std::string(100000, 'x')),
+            "a?b?" + std::string(100000, 'x'));
+}
+
 TEST(Text, NearestWordFindsTheFewestWrongLetters) {
   const std::vector<std::string> commands{"evaluate", "screens", "scale", "optimize"};
   EXPECT_EQ(nearest_word("evalute", commands), "evaluate");

@@ -1,0 +1,246 @@
+#include "results/fits_cube.hpp"
+#include "tests/studies/program.hpp"
+
+#include <gmock/gmock.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// Demands one line on standard error and nothing on standard output.
+void expect_one_line(const ProgramRun& refused) {
+  EXPECT_EQ(refused.output, "");
+  EXPECT_THAT(refused.errors, StartsWith("nlcwfs: "));
+  EXPECT_EQ(std::ranges::count(refused.errors, '\n'), 1) << refused.errors;
+  EXPECT_TRUE(refused.errors.ends_with('\n'));
+}
+
+class BadInput : public Program {
+ protected:
+  /// Demands that the tiny configuration with `more` is refused with exit code 2 in one line
+  /// `nlcwfs: key = value: ...allowed...`, and leaves no folder.
+  static void expect_refused(const std::string& command, const Arguments& more,
+                             const std::string& key_and_value, const std::string& allowed) {
+    Arguments arguments{command, "--config", "tiny.cfg", "--output", "run"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    expect_one_line(refused);
+    EXPECT_THAT(refused.errors,
+                AllOf(StartsWith("nlcwfs: " + key_and_value + ": "), HasSubstr(allowed)));
+    EXPECT_FALSE(std::filesystem::exists("run") || std::filesystem::exists("results"));
+  }
+};
+
+TEST_F(BadInput, OfTheCommandLine) {
+  expect_refused("evaluate", {"--detector.pupil_pixel", "16"},
+                 "command line = --detector.pupil_pixel", "did you mean --detector.pupil_pixels?");
+  expect_refused("optimise", {}, "command = optimise",
+                 "one of evaluate, screens, scale, optimize; did you mean optimize?");
+  expect_refused("evaluate", {"optimize"}, "command line = optimize", "nothing may follow");
+  expect_refused("evaluate", {"--screens.count"}, "screens.count = (nothing)", "a whole number");
+  expect_refused("evaluate", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");
+  expect_refused("evaluate", {"--preset", "papr"}, "--preset = papr", "one of paper");
+  for (const Arguments& arguments : {Arguments{}, Arguments{"--quiet"}}) {
+    const ProgramRun refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    expect_one_line(refused);
+    EXPECT_THAT(refused.errors, HasSubstr("command = (nothing): one of evaluate"));
+  }
+}
+
+TEST_F(BadInput, OfAConfigurationFile) {
+  expect_refused("evaluate", {"--config", "missing.cfg"}, "--config = missing.cfg", "No such file");
+  std::filesystem::create_directory("folder");
+  expect_refused("evaluate", {"--config", "folder"}, "--config = folder", "a directory");
+  std::ofstream("typo.cfg") << "[detector]\npixels_pupil = 3\n";
+  expect_refused("evaluate", {"--config", "typo.cfg"}, "detector.pixels_pupil = 3",
+                 "in typo.cfg, line 2; did you mean detector.pupil_pixels?");
+  std::ofstream("garbage.cfg") << "\x01\x02 = \nnonsense";
+  expect_refused("evaluate", {"--config", "garbage.cfg"}, "?? = (nothing)", "unknown key");
+}
+
+TEST_F(BadInput, OfSingleValues) {
+  expect_refused("evaluate", {"--telescope.diameter", "half a metre"},
+                 "telescope.diameter = half a metre", "a length above 0");
+  expect_refused("evaluate", {"--telescope.diameter", "-1"}, "telescope.diameter = -1",
+                 "a length above 0");
+  expect_refused("evaluate", {"--telescope.wavelength", "532parsec"},
+                 "telescope.wavelength = 532parsec", "in nm, um, mm, cm, m or km");
+  expect_refused("evaluate", {"--screens.count", "0"}, "screens.count = 0", "from 1 to");
+  expect_refused("evaluate", {"--screens.count", "2.5"}, "screens.count = 2.5", "a whole number");
+  expect_refused("evaluate", {"--seeing.d_over_r0", "nan"}, "seeing.d_over_r0 = nan", "a number");
+  expect_refused("evaluate", {"--reconstruction.relaxation", "1"}, "reconstruction.relaxation = 1",
+                 "above -1 and below 1");
+  expect_refused("evaluate", {"--simulation.truth", "real"}, "simulation.truth = real",
+                 "one of extended, matched");
+  expect_refused("evaluate", {"--detector.photons", "1e16"}, "detector.photons = 1e+16", "1e+15");
+  expect_refused("evaluate", {"--reconstruction.max_loops", "10001"},
+                 "reconstruction.max_loops = 10001", "from 1 to 10000");
+}
+
+TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
+  expect_refused("evaluate", {"--seeing.fwhm", "0.8", "--seeing.fried_parameter", "10cm"},
+                 "seeing.fried_parameter = 10cm", "set only one of");
+  expect_refused("evaluate", {"--detector.read_noise", "3"}, "detector.read_noise = 3",
+                 "needs detector.photons above 0");
+  expect_refused("evaluate", {"--detector.pupil_pixels", "15"}, "detector.pupil_pixels = 15",
+                 "an even number");
+  expect_refused("evaluate", {"--detector.window", "2.05"}, "detector.window = 2.05",
+                 "even whole number of samples, but is 32.8; the nearest window is 2");
+  expect_refused("evaluate", {"--detector.window", "0.5"}, "detector.window = 0.5", "from 1");
+  expect_refused("evaluate", {"--reconstruction.window", "1.5"}, "reconstruction.window = 1.5",
+                 "at least detector.window, which is 2");
+  expect_refused("evaluate", {"--simulation.pupil_samples", "40"}, "simulation.pupil_samples = 40",
+                 "a multiple of detector.pupil_pixels, which is 16");
+  expect_refused("evaluate", {"--reconstruction.oversampling", "3"},
+                 "reconstruction.oversampling = 3", "multiple or a divisor");
+  expect_refused("evaluate",
+                 {"--simulation.truth", "matched", "--reconstruction.oversampling", "2"},
+                 "reconstruction.oversampling = 2", "1 with a matched truth");
+  expect_refused("evaluate", {"--sensor.planes", "47km"}, "sensor.planes = 47000",
+                 "at least 2 distances");
+  expect_refused("evaluate", {"--sensor.planes", "47km,5000km"}, "sensor.planes = 5000000",
+                 "Fresnel number is 0.1");
+  expect_refused("scale", {}, "scale.diameter = (nothing)", "such as --scale.diameter 8.2m");
+}
+
+TEST_F(BadInput, OfASearch) {
+  expect_refused("optimize", {"--verify.seed", "1"}, "verify.seed = 1",
+                 "another seed than screens.seed");
+  expect_refused("optimize", {"--search.optimizer", "sbplex"}, "search.optimizer = sbplex",
+                 "direct_l, crs2, sbplx, nelder_mead, bobyqa, cobyla");
+  expect_refused("optimize", {"--search.optimizer", "sbplx+direct_l"},
+                 "search.optimizer = sbplx+direct_l", "such as direct_l+sbplx");
+  expect_refused("optimize", {"--search.z_near", "50km:5km"}, "search.z_near = 50km:5km",
+                 "min < max");
+  expect_refused("optimize", {"--search.z_near", "-50km:-5km"}, "search.z_near = -50km:-5km",
+                 "above 0");
+  expect_refused("optimize", {"--search.z_far", "50km:5000km"}, "search.z_far = 50000:5e+06",
+                 "the farthest that a plane may be");
+  expect_refused("optimize", {"--search.layout", "free", "--search.z1", "0:5km"},
+                 "search.z1 = 0:5000", "neither of them 0");
+  expect_refused("optimize", {"--search.z1", "5km:50km"}, "search.z1 = 5km:50km",
+                 "search.layout = free");
+  expect_refused("optimize", {"--search.layout", "free", "--search.z_near", "5km:50km"},
+                 "search.z_near = 5km:50km", "search.layout = symmetric");
+  expect_refused("optimize", {"--search.layout", "free", "--search.z5", "5km:50km"},
+                 "search.z5 = 5km:50km", "4 planes, see search.plane_count");
+  expect_refused("optimize", {"--baseline.planes", "47km"}, "baseline.planes = 47000",
+                 "at least 2 distances");
+  expect_refused("optimize", {"--search.budget", "0"}, "search.budget = 0", "from 1");
+  expect_refused("optimize", {"--verify.screens", "1"}, "verify.screens = 1", "from 2");
+}
+
+TEST_F(BadInput, OfMoreMemoryThanIsAllowed) {
+  expect_refused("screens", {"--screens.count", "1000000", "--simulation.pupil_samples", "64"},
+                 "screens.count = 1000000",
+                 "1000000 screens of 64 x 64 samples take 30.5 GiB of memory; at most 524288 of "
+                 "them fit into the 16 GiB allowed");
+  expect_refused("optimize", {"--verify.screens", "1000000"}, "verify.screens = 1000000",
+                 "take 30.5 GiB of memory");
+  expect_refused("evaluate", {"--simulation.pupil_samples", "8192"}, "detector.window = 2",
+                 "at most 1 pupil diameters of 8192 samples");
+  expect_refused("evaluate",
+                 {"--reconstruction.window", "64", "--detector.pupil_pixels", "256",
+                  "--simulation.pupil_samples", "256"},
+                 "reconstruction.window = 64", "at most 32 pupil diameters of 256 samples");
+  expect_refused("optimize",
+                 {"--simulation.pupil_samples", "256", "--verify.truth_factor", "16",
+                  "--detector.window", "4"},
+                 "verify.truth_factor = 16", "at most 8: the search's true field is 1024 samples");
+}
+
+TEST_F(BadInput, OfFilesOfScreens) {
+  const auto expect_file_refused = [](const std::string& file, const std::string& allowed) {
+    expect_refused("evaluate", {"--screens.file", file}, "screens.file = " + file, allowed);
+  };
+  const std::string long_name(150, 'x');
+  expect_file_refused("missing.fits", "there is no such file");
+  expect_file_refused("missing/" + long_name + "/" + long_name + ".fits", "n x n x count");
+  expect_file_refused(".", "this is a directory");
+  std::ofstream("garbage.fits") << "no FITS file at all";
+  expect_file_refused("garbage.fits", "it cannot be read");
+
+  const auto save = [](const std::string& name, Image<double> slice, const std::string& unit) {
+    write_fits_cube(name, {unit, {std::move(slice)}});
+  };
+  save("tiny.fits", Image<double>::Zero(1, 1), "rad");
+  expect_file_refused("tiny.fits", "at least 2 x 2 samples");
+  save("unit.fits", Image<double>::Zero(32, 32), "nm");
+  expect_file_refused("unit.fits", "BUNIT must be 'rad' or 'm', but is 'nm'");
+  Image<double> with_nan = Image<double>::Zero(32, 32);
+  with_nan(3, 4) = std::nan("");
+  save("nan.fits", with_nan, "rad");
+  expect_file_refused("nan.fits", "values that are not finite");
+}
+
+TEST_F(BadInput, OfShapesInFilesOfScreens) {
+  const auto expect_shape_refused = [](const std::vector<int>& shape, const std::string& why) {
+    std::string header = fmt::format("{:<80}{:<80}", "SIMPLE  =                    T",
+                                     "BITPIX  =                  -64");
+    header += fmt::format("{:<80}", fmt::format("NAXIS   = {:>20}", shape.size()));
+    for (std::size_t axis = 0; axis < shape.size(); ++axis) {
+      header += fmt::format("{:<80}", fmt::format("NAXIS{}  = {:>20}", axis + 1, shape[axis]));
+    }
+    header += fmt::format("{:<80}", "END");
+    std::ofstream("shape.fits") << fmt::format("{:<2880}", header) << std::string(28800, '\0');
+    expect_refused("evaluate", {"--screens.file", "shape.fits"}, "screens.file = shape.fits", why);
+  };
+  expect_shape_refused({32}, "NAXIS is 1");
+  expect_shape_refused({32, 31}, "its slices are 32 x 31, not square");
+  expect_shape_refused({3, 2, 2, 2}, "NAXIS is 4");
+  expect_shape_refused({100000, 100000}, "take more than 16 GiB of memory");
+  expect_shape_refused({200, 200}, "it cannot be read");
+}
+
+TEST_F(BadInput, OfAnOutputFolderThatExists) {
+  std::filesystem::create_directory("mine");
+  std::ofstream("mine/precious") << "data";
+  for (const char* command : {"evaluate", "optimize", "screens", "scale"}) {
+    const ProgramRun refused = run({command, "--config", "tiny.cfg", "--output", "mine"});
+    EXPECT_EQ(refused.exit_code, 2);
+    expect_one_line(refused);
+    EXPECT_THAT(refused.errors, StartsWith("nlcwfs: --output = mine: exists"));
+  }
+  EXPECT_EQ(names_in("mine").size(), 1u);
+}
+
+TEST_F(BadInput, IsNotToBlameWhereTheOutputCannotBeWritten) {
+  std::ofstream("file") << "in the way";
+  // Not even root makes folders in /proc.
+  for (const std::string folder : {"file/run", "/proc/run"}) {
+    const ProgramRun failed = run({"evaluate", "--config", "tiny.cfg", "--output", folder});
+    EXPECT_EQ(failed.exit_code, 1);
+    expect_one_line(failed);
+    EXPECT_THAT(failed.errors,
+                StartsWith("nlcwfs: failed: cannot make the output folder " + folder + ": "));
+  }
+}
+
+TEST_F(BadInput, IsNotToBlameForAFullDisk) {
+  // No file may be longer than a few blocks: writing fails as on a full disk.
+  for (const char* command : {"evaluate", "screens"}) {
+    const ProgramRun failed =
+        run({command, "--config", "tiny.cfg", "--output", command}, "trap '' XFSZ; ulimit -f 4; ");
+    EXPECT_EQ(failed.exit_code, 1);
+    expect_one_line(failed);
+    EXPECT_THAT(failed.errors, StartsWith("nlcwfs: failed: cannot "));
+    EXPECT_THAT(failed.errors, HasSubstr(std::string(command) + '/'));
+  }
+}
+
+TEST_F(BadInput, IsNotToBlameWhereStandardOutputIsFull) {
+  const ProgramRun failed = run({"evaluate", "--config", "tiny.cfg", "--output", "run"},
+                                "full() { \"$@\" > /dev/full; }; full ");
+  EXPECT_EQ(failed.exit_code, 1);
+  expect_one_line(failed);
+  EXPECT_THAT(failed.errors, HasSubstr("cannot write to standard output: No space left"));
+  EXPECT_TRUE(std::filesystem::exists("run/summary.json")) << "the results are safe";
+}
+
+}  // namespace
+}  // namespace nlcwfs

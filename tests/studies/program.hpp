@@ -1,0 +1,93 @@
+#pragma once
+
+#include "tests/scratch_folder.hpp"
+
+#include <cstdlib>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace nlcwfs {
+
+/// What a run of the program left behind, apart from its folder.
+struct ProgramRun {
+  int exit_code;  ///< -1 where a signal ended it
+  std::string output;
+  std::string errors;
+};
+
+/// Runs the real program in a folder of the test's own.
+class Program : public ScratchFolder {
+ protected:
+  using Arguments = std::vector<std::string>;
+
+  /// A configuration that is simulated in milliseconds.
+  void SetUp() override {
+    std::ofstream("tiny.cfg") << "[detector]\npupil_pixels = 16\nwindow = 2\n"
+                                 "[reconstruction]\nwindow = 4\n"
+                                 "[simulation]\npupil_samples = 32\n"
+                                 "[screens]\ncount = 2\n"
+                                 "[verify]\nscreens = 2\n"
+                                 "[search]\nbudget = 6\n";
+  }
+
+  /// @param shell  what stands before the program in the shell's command
+  static ProgramRun run(const Arguments& arguments, const std::string& shell = "") {
+    std::string command = shell + quoted(NLCWFS_PROGRAM);
+    for (const std::string& argument : arguments) command += ' ' + quoted(argument);
+    const int status = std::system((command + " > output.txt 2> errors.txt").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents("output.txt"),
+            contents("errors.txt")};
+  }
+
+  /// `command --config tiny.cfg --output folder more...`, which must succeed and print nothing but
+  /// text.
+  static ProgramRun done(const std::string& command, const std::string& folder,
+                         const Arguments& more = {}) {
+    Arguments arguments{command, "--config", "tiny.cfg", "--output", folder};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun finished = run(arguments);
+    EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+    EXPECT_EQ(finished.errors, "");
+    for (const char character : finished.output) {
+      const bool is_text = character == '\n' || (character >= ' ' && character <= '~');
+      EXPECT_TRUE(is_text) << "control character " << int(character);
+    }
+    return finished;
+  }
+
+  static nlohmann::json summary(const std::string& folder) {
+    return nlohmann::json::parse(contents(folder + "/summary.json"));
+  }
+
+  /// The summary without what a clock measured.
+  static nlohmann::json repeatable_summary(const std::string& folder) {
+    nlohmann::json json = summary(folder);
+    erase_times(json);
+    return json;
+  }
+
+ private:
+  static std::string quoted(const std::string& word) {
+    std::string text = "'";
+    for (const char character : word) {
+      text += character == '\'' ? "'\\''" : std::string(1, character);
+    }
+    return text + "'";
+  }
+
+  static void erase_times(nlohmann::json& json) {
+    if (json.is_object()) {
+      for (const char* name : {"seconds", "wall_seconds", "search_seconds"}) json.erase(name);
+    }
+    for (auto& element : json) {
+      if (element.is_structured()) erase_times(element);
+    }
+  }
+};
+
+}  // namespace nlcwfs

@@ -1,0 +1,418 @@
+#include "results/fits_cube.hpp"
+#include "studies/command_line.hpp"
+#include "studies/version.hpp"
+#include "tests/studies/program.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+using testing::StartsWith;
+using Json = nlohmann::json;
+
+std::vector<std::string> keys_of(const Json& json) {
+  std::vector<std::string> keys;
+  for (const auto& item : json.items()) keys.push_back(item.key());
+  return keys;
+}
+
+/// The rows of a table without quotes, its header first.
+std::vector<std::vector<std::string>> read_table(const std::string& path) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(contents(path));
+  for (std::string line; std::getline(text, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+/// The one number that a query of an archive gives.
+double archived(const std::string& folder, const std::string& sql) {
+  sqlite3* opened = nullptr;
+  EXPECT_EQ(sqlite3_open((folder + "/archive.sqlite").c_str(), &opened), SQLITE_OK);
+  const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> database(opened, sqlite3_close);
+  sqlite3_stmt* prepared = nullptr;
+  EXPECT_EQ(sqlite3_prepare_v2(opened, sql.c_str(), -1, &prepared, nullptr), SQLITE_OK);
+  const std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)> statement(prepared,
+                                                                             sqlite3_finalize);
+  EXPECT_EQ(sqlite3_step(prepared), SQLITE_ROW) << sqlite3_errmsg(opened);
+  return sqlite3_column_double(prepared, 0);
+}
+
+/// What every design of a summary has, with its performance.
+void expect_design_of_the_contract(const Json& design) {
+  EXPECT_THAT(keys_of(design),
+              IsSupersetOf({"planes_m", "planes_talbot", "fresnel_numbers", "pupil_pixels",
+                            "detector_window", "photons", "cost", "performance"}));
+  EXPECT_THAT(keys_of(design.at("performance")),
+              IsSupersetOf({"residual_wfe_nm", "wrapped_wfe_nm", "total_wfe_nm", "field_strehl",
+                            "loops", "fractional_loops", "seconds", "fft_count", "captured_energy",
+                            "converged_fraction", "screens"}));
+  EXPECT_EQ(design["performance"]["captured_energy"].size(), design["planes_m"].size());
+}
+
+void expect_same_performance(const Json& actual, const Json& expected, double tolerance) {
+  for (const char* metric : {"residual_wfe_nm", "wrapped_wfe_nm", "total_wfe_nm", "field_strehl",
+                             "fractional_loops", "loops", "fft_count"}) {
+    for (const char* part : {"mean", "standard_error"}) {
+      const double value = expected.at(metric).at(part);
+      EXPECT_NEAR(actual.at(metric).at(part), value, tolerance * std::abs(value))
+          << metric << ' ' << part;
+    }
+  }
+  EXPECT_EQ(actual.at("screens"), expected.at("screens"));
+  EXPECT_EQ(actual.at("converged_fraction"), expected.at("converged_fraction"));
+}
+
+using Studies = Program;
+
+TEST_F(Studies, EvaluateLeavesItsFiles) {
+  const ProgramRun finished = done("evaluate", "run");
+  EXPECT_THAT(names_in("run"),
+              ElementsAre("archive.sqlite", "config.cfg", "screens.csv", "summary.json"));
+  EXPECT_THAT(finished.output, AllOf(StartsWith("0.5 m telescope at 532 nm, D/r0 = 4"),
+                                     HasSubstr("residual WFE, nm"), HasSubstr("2 screens"),
+                                     EndsWith("Results are in run.\n")));
+
+  const Json json = summary("run");
+  EXPECT_EQ(json.at("command"), "evaluate");
+  EXPECT_EQ(json.at("version"), version());
+  EXPECT_EQ(json.at("config").size(), configuration_keys().size());
+  EXPECT_EQ(json["config"].at("detector.pupil_pixels"), "16");
+  EXPECT_TRUE(json["config"].at("seeing.outer_scale").is_null());
+  expect_design_of_the_contract(json.at("design"));
+  EXPECT_EQ(json["design"]["planes_m"], (Json{-180e3, 180e3, -47e3, 47e3}));
+  EXPECT_EQ(json["design"]["performance"]["screens"], 2);
+
+  EXPECT_EQ(archived("run", "SELECT count(*) FROM evaluations"), 1.0);
+  EXPECT_EQ(archived("run", "SELECT cost FROM evaluations"), json["design"]["cost"]["mean"]);
+  EXPECT_EQ(archived("run",
+                     "SELECT json_extract(performance, '$.total_wfe_nm.mean') "
+                     "FROM evaluations"),
+            json["design"]["performance"]["total_wfe_nm"]["mean"]);
+
+  const auto table = read_table("run/screens.csv");
+  ASSERT_EQ(table.size(), 3u);
+  EXPECT_THAT(table[0], ElementsAre("screen", "residual_wfe_nm", "wrapped_wfe_nm", "total_wfe_nm",
+                                    "field_strehl", "loops", "fractional_loops", "seconds",
+                                    "fft_count", "converged"));
+  EXPECT_NEAR((std::stod(table[1][1]) + std::stod(table[2][1])) / 2.0,
+              json["design"]["performance"]["residual_wfe_nm"]["mean"], 1e-9);
+}
+
+TEST_F(Studies, OptimizeLeavesItsFiles) {
+  const ProgramRun finished = done("optimize", "run");
+  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "search.csv",
+                                           "summary.json"));
+  EXPECT_THAT(finished.output,
+              AllOf(HasSubstr("6 designs on 2 screens"), HasSubstr("2 fresh screens"),
+                    HasSubstr("aseline"), EndsWith("Results are in run.\n")));
+
+  const Json json = summary("run");
+  EXPECT_EQ(json.at("command"), "optimize");
+  expect_design_of_the_contract(json.at("best"));
+  expect_design_of_the_contract(json.at("baseline"));
+  EXPECT_EQ(json["baseline"]["planes_m"], (Json{-47e3, 47e3, -180e3, 180e3}));
+  EXPECT_EQ(json.at("evaluations"), 6);
+  EXPECT_EQ(json.at("reconstructions"), 6 * 2 + 2 * 2);
+  EXPECT_GT(json.at("wall_seconds"), 0.0);
+  EXPECT_NEAR(json.at("improvement").at("cost"),
+              double(json["baseline"]["cost"]["mean"]) - double(json["best"]["cost"]["mean"]),
+              1e-9);
+  EXPECT_GE(json["improvement"].at("standard_error"), 0.0);
+
+  EXPECT_EQ(archived("run", "SELECT count(*) FROM evaluations WHERE stage = 'search'"), 6.0);
+  EXPECT_EQ(archived("run", "SELECT count(*) FROM evaluations WHERE stage = 'verify'"), 2.0);
+  EXPECT_EQ(archived("run", "SELECT min(cost) FROM evaluations WHERE stage = 'search'"),
+            json["best_cost_in_search"]);
+  const std::string table = contents("run/search.csv");
+  EXPECT_THAT(table, StartsWith("evaluation,planes_m,cost,residual_wfe_nm,fractional_loops,"));
+  EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 6);
+}
+
+TEST_F(Studies, TheBestConfigurationEvaluatesToWhatWasVerified) {
+  done("optimize", "run", {"--detector.photons", "1e6"});
+  // The verification's screens, noise and twice as fine truth.
+  const ProgramRun again = run({"evaluate", "--config", "run/best.cfg", "--output", "again",
+                                "--screens.seed", "1000003", "--simulation.pupil_samples", "64"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  const Json verified = repeatable_summary("run")["best"];
+  const Json evaluated = repeatable_summary("again")["design"];
+  EXPECT_EQ(verified["planes_m"], evaluated["planes_m"]);
+  EXPECT_EQ(verified["cost"], evaluated["cost"]);
+  EXPECT_EQ(verified["performance"], evaluated["performance"]);
+}
+
+TEST_F(Studies, OptimizeSearchesFreeLayoutsOfAnyPlaneCount) {
+  done("optimize", "run",
+       {"--search.layout", "free", "--search.plane_count", "3", "--search.z2", "5km:50km",
+        "--detector.photons", "1e5", "--sensor.planes", "-60km,20km,60km"});
+  const Json best = summary("run").at("best");
+  EXPECT_EQ(best["planes_m"].size(), 3u);
+  EXPECT_GE(best["planes_m"][1], 5e3 - 1e-6);
+  EXPECT_LE(best["planes_m"][1], 50e3 + 1e-6);
+  EXPECT_THAT(contents("run/search.csv"), HasSubstr("1,\"-60000,20000,60000\","))
+      << "the user's own design is tried first";
+}
+
+TEST_F(Studies, ScreensLeavesItsFiles) {
+  const ProgramRun finished = done("screens", "run");
+  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "config.cfg", "screens.fits",
+                                           "structure_function.csv", "summary.json"));
+  EXPECT_THAT(finished.output,
+              AllOf(HasSubstr("2 screens of 32 x 32 samples"), EndsWith("Results are in run.\n")));
+  const Json json = summary("run");
+  EXPECT_EQ(json.at("command"), "screens");
+  EXPECT_EQ(json.at("screens"), 2);
+  EXPECT_EQ(json.at("samples"), 32);
+  const FitsCube cube = read_fits_cube("run/screens.fits", "screens.file");
+  EXPECT_EQ(cube.unit, "rad");
+  EXPECT_EQ(cube.slices.size(), 2u);
+  EXPECT_EQ(cube.slices.at(0).rows(), 32);
+  // Four directions of 31 separations.
+  EXPECT_EQ(read_table("run/structure_function.csv").size(), 1u + 4 * 31);
+}
+
+TEST_F(Studies, ScaleLeavesItsFiles) {
+  const ProgramRun finished = done("scale", "run", {"--scale.diameter", "2m"});
+  EXPECT_THAT(names_in("run"),
+              ElementsAre("archive.sqlite", "config.cfg", "scaled.cfg", "summary.json"));
+  EXPECT_THAT(finished.output,
+              AllOf(StartsWith("From: 0.5 m telescope"), HasSubstr("To: 2 m telescope"),
+                    HasSubstr("scaled.cfg"), EndsWith("Results are in run.\n")));
+  const Json json = summary("run");
+  EXPECT_EQ(json.at("command"), "scale");
+  // 16 times the distances: (2 / 0.5)^2.
+  EXPECT_EQ(json.at("scaled").at("planes_m"), (Json{-2880e3, 2880e3, -752e3, 752e3}));
+  for (int plane = 0; plane < 4; ++plane) {
+    EXPECT_NEAR(json["scaled"]["fresnel_numbers"][plane], json["design"]["fresnel_numbers"][plane],
+                1e-9);
+  }
+}
+
+TEST_F(Studies, TheConfigurationOfARunReproducesIt) {
+  const Arguments settings{"--detector.photons",
+                           "1e5",
+                           "--detector.read_noise",
+                           "1.5",
+                           "--screens.seed",
+                           "7",
+                           "--seeing.fwhm",
+                           "0.8",
+                           "--seeing.outer_scale",
+                           "25m",
+                           "--telescope.diameter",
+                           "60cm",
+                           "--reconstruction.relaxation",
+                           "-0.3:0.2",
+                           "--simulation.precision",
+                           "single",
+                           "--search.z_far",
+                           "100km:200km",
+                           "--scale.wavelength",
+                           "850nm"};
+  for (const Command& command : commands()) {
+    const std::string first = command.name + "-first";
+    const std::string again = command.name + "-again";
+    done(command.name, first, settings);
+    const ProgramRun repeated =
+        run({command.name, "--config", first + "/config.cfg", "--output", again});
+    ASSERT_EQ(repeated.exit_code, 0) << repeated.errors;
+    EXPECT_EQ(repeatable_summary(first), repeatable_summary(again)) << command.name;
+    EXPECT_EQ(names_in(first), names_in(again));
+    for (const char* file : {"config.cfg", "best.cfg", "scaled.cfg", "search.csv", "screens.fits",
+                             "structure_function.csv"}) {
+      EXPECT_EQ(contents(first + '/' + file), contents(again + '/' + file)) << file;
+    }
+  }
+}
+
+TEST_F(Studies, TheSeedDecidesTheResult) {
+  done("evaluate", "one");
+  done("evaluate", "two", {"--screens.seed", "2"});
+  EXPECT_NE(summary("one")["design"]["performance"]["residual_wfe_nm"],
+            summary("two")["design"]["performance"]["residual_wfe_nm"]);
+}
+
+TEST_F(Studies, TheNumberOfThreadsDoesNotMatter) {
+  for (const Command& command : commands()) {
+    const Arguments more{"--screens.count",  "5",  "--detector.photons", "1e5",
+                         "--scale.diameter", "2m", "--verify.screens",   "3"};
+    for (const std::string threads : {"1", "2"}) {
+      Arguments arguments = more;
+      arguments.insert(arguments.end(), {"--threads", threads});
+      done(command.name, command.name + threads, arguments);
+    }
+    EXPECT_EQ(repeatable_summary(command.name + "1"), repeatable_summary(command.name + "2"));
+  }
+}
+
+TEST_F(Studies, ScreensFromAFileAreTheSimulatedOnes) {
+  done("evaluate", "simulated");
+  done("screens", "screens");
+  done("evaluate", "from_file", {"--screens.file", "screens/screens.fits"});
+  const Json expected = summary("simulated")["design"]["performance"];
+  // The file's have no piston, which changes the last bits of the fields.
+  expect_same_performance(summary("from_file")["design"]["performance"], expected, 1e-6);
+
+  FitsCube cube = read_fits_cube("screens/screens.fits", "screens.file");
+  for (Image<double>& screen : cube.slices) screen *= 532e-9 / (2.0 * std::numbers::pi);
+  cube.unit = "m";
+  write_fits_cube("metres.fits", cube);
+  done("evaluate", "from_metres", {"--screens.file", "metres.fits"});
+  expect_same_performance(summary("from_metres")["design"]["performance"], expected, 1e-6);
+}
+
+TEST_F(Studies, AFileDecidesHowManyScreensThereAre) {
+  done("screens", "screens", {"--screens.count", "3"});
+  done("evaluate", "run", {"--screens.file", "screens/screens.fits", "--screens.count", "7"});
+  EXPECT_EQ(summary("run")["design"]["performance"]["screens"], 3);
+}
+
+TEST_F(Studies, ScreensOfAnotherSamplingAreResampledWithANote) {
+  done("screens", "fine", {"--simulation.pupil_samples", "64"});
+  const ProgramRun finished = done("evaluate", "run", {"--screens.file", "fine/screens.fits"});
+  EXPECT_THAT(finished.output, HasSubstr("note: fine/screens.fits: 64 x 64 samples were resampled "
+                                         "to the truth's 32 x 32\n"));
+  EXPECT_THAT(done("optimize", "best", {"--screens.file", "fine/screens.fits"}).output,
+              AllOf(HasSubstr("note: fine/screens.fits: 64 x 64"),
+                    HasSubstr("note: the verification is on simulated screens")));
+  done("screens", "equal");
+  EXPECT_THAT(done("evaluate", "unchanged", {"--screens.file", "equal/screens.fits"}).output,
+              Not(HasSubstr("note:")));
+}
+
+TEST_F(Studies, AScaledDesignDoesTheSameInWaves) {
+  done("evaluate", "here");
+  done("scale", "scaled", {"--scale.diameter", "8.2m", "--scale.wavelength", "1.064um"});
+  const ProgramRun moved = run({"evaluate", "--config", "scaled/scaled.cfg", "--output", "there"});
+  ASSERT_EQ(moved.exit_code, 0) << moved.errors;
+  const Json here = summary("here")["design"]["performance"];
+  Json there = summary("there")["design"]["performance"];
+  for (const char* metric : {"residual_wfe_nm", "wrapped_wfe_nm", "total_wfe_nm"}) {
+    for (const char* part : {"mean", "standard_error"}) {
+      there[metric][part] = double(there[metric][part]) / 2.0;
+    }
+  }
+  expect_same_performance(there, here, 1e-6);
+}
+
+TEST_F(Studies, ScalingThereAndBackIsNoChange) {
+  const Arguments design{"--telescope.relay_beam_diameter",
+                         "10mm",
+                         "--seeing.outer_scale",
+                         "25m",
+                         "--search.z_near",
+                         "5km:100km",
+                         "--search.z_far",
+                         "50km:200km"};
+  Arguments there = design;
+  there.insert(there.end(), {"--scale.diameter", "8.2m", "--scale.wavelength", "1um",
+                             "--scale.relay_beam_diameter", "20mm"});
+  done("scale", "there", there);
+  const ProgramRun back =
+      run({"scale", "--config", "there/scaled.cfg", "--output", "back", "--scale.diameter", "0.5m",
+           "--scale.wavelength", "532nm", "--scale.relay_beam_diameter", "10mm"});
+  ASSERT_EQ(back.exit_code, 0) << back.errors;
+
+  Configuration original;
+  original.read_file("there/config.cfg");
+  Configuration returned;
+  returned.read_file("back/scaled.cfg");
+  for (const char* key :
+       {"telescope.diameter", "telescope.wavelength", "telescope.relay_beam_diameter",
+        "seeing.outer_scale", "reconstruction.tolerance"}) {
+    EXPECT_NEAR(returned.length(key) / original.length(key), 1.0, 1e-12) << key;
+  }
+  EXPECT_NEAR(returned.number("seeing.d_over_r0"), 4.0, 1e-12);
+  for (const char* key : {"sensor.planes", "baseline.planes"}) {
+    for (std::size_t plane = 0; plane < 4; ++plane) {
+      EXPECT_NEAR(returned.lengths(key).at(plane) / original.lengths(key).at(plane), 1.0, 1e-12);
+    }
+  }
+  for (const char* key : {"search.z_near", "search.z_far"}) {
+    EXPECT_NEAR(returned.length_range(key)->first / original.length_range(key)->first, 1.0, 1e-12);
+    EXPECT_NEAR(returned.length_range(key)->second / original.length_range(key)->second, 1.0,
+                1e-12);
+  }
+  const Json json = summary("there");
+  // z (d/D)^2 before and after: the beam twice as wide, at 532 / 1000 of the wavelength.
+  EXPECT_NEAR(json["scaled"]["planes_bench_m"][0],
+              double(json["design"]["planes_bench_m"][0]) * 4.0 * 0.532, 1e-9);
+}
+
+TEST_F(Studies, TheRelayStaysUnlessAnotherIsGiven) {
+  done("scale", "run", {"--telescope.relay_beam_diameter", "10mm", "--scale.diameter", "8m"});
+  const Json json = summary("run");
+  EXPECT_NEAR(json["scaled"]["planes_bench_m"][0], json["design"]["planes_bench_m"][0], 1e-9);
+  EXPECT_THAT(contents("run/scaled.cfg"), HasSubstr("relay_beam_diameter = 0.01\n"));
+}
+
+TEST_F(Studies, ThePapersPresetRunsOnItsMatchedTruth) {
+  // A file would override the preset's window.
+  std::filesystem::remove("tiny.cfg");
+  std::ofstream("tiny.cfg") << "[detector]\npupil_pixels = 16\n[screens]\ncount = 2\n";
+  const ProgramRun finished = done("evaluate", "run", {"--preset", "paper"});
+  EXPECT_THAT(finished.output, HasSubstr("matched truth"));
+  const Json design = summary("run")["design"];
+  EXPECT_EQ(design["detector_window"], 4.0);
+  for (const double energy : design["performance"]["captured_energy"]) {
+    EXPECT_NEAR(energy, 1.0, 1e-12) << "the whole periodic grid is measured";
+  }
+}
+
+TEST_F(Studies, WithoutAFolderOfTheUsersRunsAreNumbered) {
+  for (const std::string folder : {"results/evaluate-1", "results/evaluate-2"}) {
+    const ProgramRun finished = run({"evaluate", "--config", "tiny.cfg", "--quiet"});
+    EXPECT_EQ(finished.exit_code, 0);
+    EXPECT_EQ(finished.errors, "");
+    EXPECT_THAT(finished.output, EndsWith("Results are in " + folder + ".\n"));
+    EXPECT_TRUE(std::filesystem::exists(folder + "/summary.json"));
+  }
+}
+
+TEST_F(Studies, FoldersMayHaveAnyName) {
+  for (const std::string folder : {"two words/and parents", "it's", "\xC3\xBC", "slash/"}) {
+    const ProgramRun finished = run({"evaluate", "--config", "tiny.cfg", "--output", folder});
+    EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+    EXPECT_TRUE(std::filesystem::exists(folder + "/summary.json")) << folder;
+  }
+}
+
+TEST_F(Studies, HelpVersionAndDumpWorkOnEveryCommandAndLeaveNothing) {
+  const ProgramRun bare = run({"--version"});
+  EXPECT_EQ(bare.output, "nlcwfs " + std::string(version()) + "\n");
+  EXPECT_EQ(run({"--help"}).exit_code, 0);
+  for (const Command& command : commands()) {
+    const ProgramRun help = run({command.name, "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.output, HasSubstr("nlcwfs " + command.name));
+    EXPECT_EQ(run({command.name, "--version"}).output, bare.output);
+
+    const ProgramRun dump = run({command.name, "--dump-config", "--telescope.diameter", "1.8m"});
+    EXPECT_EQ(dump.exit_code, 0);
+    EXPECT_THAT(dump.output, HasSubstr("diameter = 1.8m\n"));
+    std::ofstream("dump.cfg") << dump.output;
+    EXPECT_EQ(run({command.name, "--dump-config", "--config", "dump.cfg"}).output, dump.output);
+    EXPECT_EQ(help.errors + dump.errors, "");
+  }
+  EXPECT_THAT(names_in("."), ElementsAre("dump.cfg", "errors.txt", "output.txt", "tiny.cfg"));
+}
+
+}  // namespace
+}  // namespace nlcwfs
