@@ -38,7 +38,7 @@ struct ReconstructionOptions {
   double window = 8.0;  ///< width of the reconstruction grid, pupil diameters
   OutsideDetector outside = OutsideDetector::free;
   int oversampling = 1;  ///< samples of the grid per detector pixel and axis
-  UnwrappingMethod unwrapping = UnwrappingMethod::quality_guided;
+  UnwrappingMethod unwrapping = UnwrappingMethod::least_squares;
 
   /// beta of a loop, counted from 1.
   double relaxation(int loop) const;

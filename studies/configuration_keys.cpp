@@ -165,7 +165,7 @@ std::vector<ConfigurationKey> make_keys() {
        .bounds = from_to(1, 16)},
       {.name = "reconstruction.unwrapping",
        .kind = Kind::choice,
-       .default_text = "quality_guided",
+       .default_text = "least_squares",
        .description = "How the reconstructed phase is unwrapped.",
        .choices = {"quality_guided", "least_squares"}},
 
