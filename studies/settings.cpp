@@ -241,7 +241,7 @@ Simulation simulation_of(const Configuration& configuration, std::vector<std::st
   // Before the screens, which may take long.
   simulated_design(design_of(configuration), telescope, options.truth,
                    truth_samples(configuration));
-  return Simulation(telescope, screens_of(configuration, notes), options);
+  return {telescope, screens_of(configuration, notes), options};
 }
 
 Simulation verification_of(const Configuration& configuration) {
@@ -266,11 +266,10 @@ Simulation verification_of(const Configuration& configuration) {
                     "at most {} are allowed",
                     std::floor(max_grid_width / search_width), search_width, max_grid_width));
   }
-  return Simulation(
-      telescope,
-      simulated_screens(configuration, telescope, truth_samples(configuration) * factor,
-                        "verify.screens", "verify.seed"),
-      options);
+  return {telescope,
+          simulated_screens(configuration, telescope, truth_samples(configuration) * factor,
+                            "verify.screens", "verify.seed"),
+          options};
 }
 
 }  // namespace nlcwfs

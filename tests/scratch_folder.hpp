@@ -14,15 +14,16 @@ namespace nlcwfs {
 /// An empty folder of its own for each test, which is also the working directory.
 class ScratchFolder : public testing::Test {
  protected:
-  ScratchFolder() {
+  void SetUp() override {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::path(testing::TempDir()) / "nlcwfs" / test->test_suite_name() /
               test->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
+    previous_ = std::filesystem::current_path();
     std::filesystem::current_path(folder_);
   }
-  ~ScratchFolder() override {
+  void TearDown() override {
     std::filesystem::current_path(previous_);
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);
@@ -30,7 +31,7 @@ class ScratchFolder : public testing::Test {
 
  private:
   std::filesystem::path folder_;
-  std::filesystem::path previous_ = std::filesystem::current_path();
+  std::filesystem::path previous_;
 };
 
 inline std::string contents(const std::filesystem::path& path) {

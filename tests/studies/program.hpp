@@ -27,6 +27,7 @@ class Program : public ScratchFolder {
 
   /// A configuration that is simulated in milliseconds.
   void SetUp() override {
+    ScratchFolder::SetUp();
     std::ofstream("tiny.cfg") << "[detector]\npupil_pixels = 16\nwindow = 2\n"
                                  "[reconstruction]\nwindow = 4\n"
                                  "[simulation]\npupil_samples = 32\n"
@@ -50,7 +51,7 @@ class Program : public ScratchFolder {
                          const Arguments& more = {}) {
     Arguments arguments{command, "--config", "tiny.cfg", "--output", folder};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramRun finished = run(arguments);
+    ProgramRun finished = run(arguments);
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
     EXPECT_EQ(finished.errors, "");
     for (const char character : finished.output) {
