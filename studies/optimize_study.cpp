@@ -28,45 +28,52 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What the configuration asks for, checked as a whole before anything is written.
+/// The method, limits and seed of the section search.
+SearchOptions search_options_of(const Configuration& configuration, const PlaneLayout& layout) {
+  SearchOptions options;
+  options.optimizer = configuration.text("search.optimizer");
+  options.seed = configuration.seed("search.seed");
+  options.evaluation.budget = configuration.integer("search.budget");
+  options.evaluation.time_limit = configuration.optional_time("search.time_limit");
+  try {
+    search_method(options.optimizer, static_cast<int>(layout.variables().size()));
+  } catch (const std::invalid_argument& error) {
+    throw InputError("search.optimizer", options.optimizer, error.what());
+  }
+  return options;
+}
+
+/// What the configuration asks for, checked as a whole before anything is written; the screens,
+/// which take longest, come last.
 struct Task {
   explicit Task(const Configuration& configuration);
 
   Telescope telescope;
   Seeing seeing;
+  DesignCost cost;
+  std::unique_ptr<PlaneLayout> layout;
+  SearchOptions search;
   std::vector<std::string> notes;
   Simulation simulation;
   Simulation verification;
   SensorDesign design;  ///< what the search varies the planes of
   SensorDesign baseline;
-  DesignCost cost;
-  std::unique_ptr<PlaneLayout> layout;
-  SearchOptions search;
 };
 
 Task::Task(const Configuration& configuration)
     : telescope(telescope_of(configuration)),
       seeing(seeing_of(configuration, telescope)),
+      cost(cost_of(configuration)),
+      layout(layout_of(configuration, telescope)),
+      search(search_options_of(configuration, *layout)),
       simulation(simulation_of(configuration, notes)),
       verification(verification_of(configuration)),
       design(simulation.checked(design_of(configuration))),
-      baseline(simulation.checked(baseline_of(configuration))),
-      cost(cost_of(configuration)),
-      layout(layout_of(configuration, telescope)) {
+      baseline(simulation.checked(baseline_of(configuration))) {
   verification.checked(design);
   verification.checked(baseline);
   if (!configuration.text("screens.file").empty()) {
-    notes.push_back("the verification is on simulated screens of the configured seeing");
-  }
-
-  search.optimizer = configuration.text("search.optimizer");
-  search.seed = configuration.seed("search.seed");
-  search.evaluation.budget = configuration.integer("search.budget");
-  search.evaluation.time_limit = configuration.optional_time("search.time_limit");
-  try {
-    search_method(search.optimizer, static_cast<int>(layout->variables().size()));
-  } catch (const std::invalid_argument& error) {
-    throw InputError("search.optimizer", search.optimizer, error.what());
+    notes.emplace_back("the verification is on simulated screens of the configured seeing");
   }
   // The user's own designs are tried first.
   for (const SensorDesign* known : {&design, &baseline}) {
