@@ -69,6 +69,7 @@ struct LineTransform<Real>::Plans {
   /// FFTW's interface takes the input as mutable, but preserves it.
   void execute(typename Library::Plan plan, const std::complex<Real>* in,
                std::complex<Real>* out) const {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     Library::execute(plan, reinterpret_cast<Complex*>(const_cast<std::complex<Real>*>(in)),
                      reinterpret_cast<Complex*>(out));
   }

@@ -92,6 +92,7 @@ PhaseUnwrapper::PhaseUnwrapper(const PupilMask& mask, UnwrappingMethod method)
 void PhaseUnwrapper::sort_samples_for_elimination() {
   const auto count = std::ssize(samples_);
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(samples_.size() + 2 * edges_.size());
   for (int sample = 0; sample < count; ++sample) entries.emplace_back(sample, sample, 1.0);
   for (const Edge& edge : edges_) {
     entries.emplace_back(edge.first, edge.second, 1.0);

@@ -6,7 +6,7 @@ namespace nlcwfs {
 
 /// The turbulence that the telescope looks through: Kolmogorov, or von Karman with an outer scale.
 struct Seeing {
-  double fried_parameter;                  ///< r0 at the telescope's wavelength, m
+  double fried_parameter = 0.0;            ///< r0 at the telescope's wavelength, m, above 0
   std::optional<double> outer_scale = {};  ///< L0, m; absent = infinite (Kolmogorov)
 
   /// @throws InputError where a value is not physical

@@ -172,8 +172,9 @@ std::vector<PhaseScreen> generate_screens(const TurbulenceScreenGenerator& gener
   std::vector<PhaseScreen> screens(count);
   tbb::parallel_for(0, (count + 1) / 2, [&](int pair) {
     auto [first, second] = generator.screen_pair(pair);
-    screens[2 * pair] = std::move(first);
-    if (2 * pair + 1 < count) screens[2 * pair + 1] = std::move(second);
+    const int index = 2 * pair;
+    screens[index] = std::move(first);
+    if (index + 1 < count) screens[index + 1] = std::move(second);
   });
   return screens;
 }

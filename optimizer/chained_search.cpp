@@ -3,6 +3,7 @@
 #include "optimizer/nlopt_backend.hpp"
 
 #include <algorithm>
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -42,7 +43,7 @@ class ChainedSearch {
       search_globally();
       compare_choices();
       refine();
-      const double cost = evaluator_.best() ? evaluator_.best()->cost : no_cost;
+      const double cost = cost_of(evaluator_.best());
       if (!(cost < cost_before)) return;
       cost_before = cost;
     }
@@ -51,12 +52,11 @@ class ChainedSearch {
   /// The stages that evaluated anything.
   std::vector<SearchStage> stages() const {
     std::vector<SearchStage> stages;
-    int end = evaluator_.evaluations();
-    for (auto begun = begun_.rbegin(); begun != begun_.rend(); ++begun) {
-      if (end > begun->evaluations) stages.push_back({begun->name, end - begun->evaluations});
-      end = begun->evaluations;
+    for (std::size_t i = 0; i < begun_.size(); ++i) {
+      const int end = i + 1 < begun_.size() ? begun_[i + 1].evaluations : evaluator_.evaluations();
+      const auto& [name, begin] = begun_[i];
+      if (end > begin) stages.push_back({name, end - begin});
     }
-    std::reverse(stages.begin(), stages.end());
     return stages;
   }
 
@@ -69,10 +69,12 @@ class ChainedSearch {
     return evaluator_.best() ? evaluator_.best()->point : starts_.front();
   }
 
-  double cost_of(int choice) const {
-    const auto& best = evaluator_.best_of(choice);
-    return best ? best->cost : no_cost;
+  static double cost_of(const std::optional<EvaluatedDesign>& design) {
+    if (!design) return no_cost;
+    return design->cost;
   }
+
+  double cost_of(int choice) const { return cost_of(evaluator_.best_of(choice)); }
 
   void search_globally() {
     const int other_choices = evaluator_.choice_count() - 1;

@@ -102,8 +102,10 @@ void write_file(const std::filesystem::path& path, const FitsCube& cube,
   std::array<LONGLONG, 3> first{1, 1, 1};
   for (const Image<double>& slice : cube.slices) {
     assert(slice.rows() == samples && slice.cols() == samples);
-    fits_write_pixll(file.get(), TDOUBLE, first.data(), slice.size(),
-                     const_cast<double*>(slice.data()), &status);
+    // CFITSIO's interface takes the values as mutable, but only reads them.
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+    auto* const values = const_cast<double*>(slice.data());
+    fits_write_pixll(file.get(), TDOUBLE, first.data(), slice.size(), values, &status);
     check(status);
     ++first[2];
   }

@@ -5,6 +5,7 @@
 #include "studies/units.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -147,6 +148,24 @@ std::vector<po::option> parse_options(int argc, const char* const* argv,
   }
 }
 
+/// @param earlier  the command that was given before, or empty
+std::string parse_command(const std::string& value, const std::string& earlier) {
+  if (!earlier.empty()) {
+    throw InputError("command line", one_line(value),
+                     fmt::format("nothing may follow the command {} but options, such as "
+                                 "--telescope.diameter 0.5m",
+                                 earlier));
+  }
+  const auto names = command_names();
+  if (std::ranges::count(names, value) == 0) {
+    const std::string shown = one_line(value);
+    throw InputError("command", shown,
+                     fmt::format("one of {}; did you mean {}?", fmt::join(names, ", "),
+                                 nearest_word(shown, names)));
+  }
+  return value;
+}
+
 int parse_threads(const std::string& value) {
   const auto threads = parse_integer(value);
   if (!threads || *threads < 0 || *threads > 4096) {
@@ -170,6 +189,11 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   po::options_description known = general_options();
   known.add(key_options());
 
+  const std::map<std::string, bool CommandLine::*> flags{
+      {"quiet", &CommandLine::quiet},
+      {"help", &CommandLine::help},
+      {"version", &CommandLine::version},
+      {"dump-config", &CommandLine::dump_config}};
   CommandLine result;
   std::optional<std::string> preset;
   std::vector<std::string> files;
@@ -180,20 +204,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     const std::string value = option.value.empty() ? "" : option.value.front();
     if (option.position_key >= 0) {
       if (value.starts_with('-')) refuse_unknown(value, known);
-      if (!result.command.empty()) {
-        throw InputError("command line", one_line(value),
-                         fmt::format("nothing may follow the command {} but options, such as "
-                                     "--telescope.diameter 0.5m",
-                                     result.command));
-      }
-      const auto names = command_names();
-      if (std::ranges::count(names, value) == 0) {
-        const std::string shown = one_line(value);
-        throw InputError("command", shown,
-                         fmt::format("one of {}; did you mean {}?", fmt::join(names, ", "),
-                                     nearest_word(shown, names)));
-      }
-      result.command = value;
+      result.command = parse_command(value, result.command);
       continue;
     }
     if (!seen.insert(key).second && key != "config") {
@@ -201,14 +212,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
                        one_line(fmt::format("{}", fmt::join(option.original_tokens, " "))),
                        "given twice; keep one of them");
     }
-    if (key == "quiet") {
-      result.quiet = true;
-    } else if (key == "help") {
-      result.help = true;
-    } else if (key == "version") {
-      result.version = true;
-    } else if (key == "dump-config") {
-      result.dump_config = true;
+    const auto flag = flags.find(key);
+    if (flag != flags.end()) {
+      result.*flag->second = true;
     } else if (value.empty() || value.starts_with("--")) {
       refuse_missing_value("--" + key);
     } else if (key == "config") {

@@ -189,7 +189,7 @@ void Configuration::read_file(const std::filesystem::path& path) {
   for (int number = 1; std::getline(file, line); ++number) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors write it
     if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
-    std::istringstream lines(header + '\n' + line);
+    std::istringstream lines(fmt::format("{}\n{}", header, line));
     std::vector<po::option> options;
     try {
       constexpr bool allow_unregistered = true;

@@ -123,10 +123,10 @@ std::optional<std::pair<double, double>> parse_ramp(std::string_view text) {
 
 std::string format_length(double length) {
   if (length == 0.0) return "0 m";
-  const Unit* chosen = nullptr;
+  const Unit* chosen = &length_units[1];  // the smallest
   for (const Unit& unit : length_units) {
     if (unit.name.empty() || unit.name == "cm") continue;
-    if (!chosen || std::abs(length) * unit.denominator / unit.numerator >= 1.0) chosen = &unit;
+    if (std::abs(length) * unit.denominator / unit.numerator >= 1.0) chosen = &unit;
   }
   const double scaled = length * chosen->denominator / chosen->numerator;
   // Beyond 1000 km whole kilometres read better than an exponent.
