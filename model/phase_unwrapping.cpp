@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include <Eigen/SparseCholesky>
@@ -205,7 +206,9 @@ std::vector<int> PhaseUnwrapper::least_squares_cycles(const Eigen::ArrayXcd& fie
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(
       matrix);
-  assert(factor.info() == Eigen::Success);
+  if (factor.info() != Eigen::Success) {
+    throw std::runtime_error("the phase could not be unwrapped: its normal matrix is singular");
+  }
   const Eigen::ArrayXd solution = factor.solve(right_side).array();
 
   Eigen::ArrayXcd phasor_means = Eigen::ArrayXcd::Zero(part_count_);

@@ -5,6 +5,7 @@
 #include "model/input_error.hpp"
 #include "model/random_stream.hpp"
 #include "model/true_light.hpp"
+#include "model/wrap_free_propagator.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -124,6 +125,14 @@ Performance run_all(const Telescope& telescope, const SensorDesign& design,
 
 SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, TruthModel truth,
                               int truth_samples) {
+  telescope.validate();
+  for (const int samples : {design.detector.pupil_pixels, truth_samples}) {
+    if (!pupil_mask(samples, telescope.central_obscuration).any()) {
+      throw InputError(
+          "telescope.central_obscuration", telescope.central_obscuration,
+          fmt::format("leaves none of {} x {} samples of the pupil lit", samples, samples));
+    }
+  }
   const int pixels = design.detector.pupil_pixels;
   if (truth == TruthModel::matched) {
     // The detector's own window is not used; one that always fits leaves errors to the other's key.
@@ -154,6 +163,17 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, T
   }
   validate_grid_window("detector.window", design.detector.window, "simulation.pupil_samples",
                        truth_samples);
+  const double farthest =
+      WrapFreePropagator(truth_samples, grid_width(design.detector.window, truth_samples),
+                         telescope.diameter / truth_samples, telescope.wavelength)
+          .farthest_distance();
+  for (const double plane : design.planes) {
+    if (std::abs(plane) <= farthest) continue;
+    throw InputError("sensor.planes", plane,
+                     fmt::format("distances within +-{:.6g} m with simulation.pupil_samples = {}; "
+                                 "fewer samples reach farther",
+                                 farthest, truth_samples));
+  }
   return design;
 }
 

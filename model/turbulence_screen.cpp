@@ -1,5 +1,6 @@
 #include "model/turbulence_screen.hpp"
 
+#include "model/input_error.hpp"
 #include "model/random_stream.hpp"
 
 #include <algorithm>
@@ -19,6 +20,9 @@ namespace nlcwfs {
 namespace {
 
 using Complex = std::complex<double>;
+
+/// D/r0 far beyond any telescope's, where phases still have digits to spare.
+constexpr double strongest_turbulence = 1e4;
 
 struct Derivatives {
   double first;
@@ -98,6 +102,11 @@ TurbulenceScreenGenerator::TurbulenceScreenGenerator(const Seeing& seeing, int s
     : samples_(samples), seed_(seed), transform_(1) {
   assert(samples >= 2 && diameter > 0.0);
   seeing.validate();
+  if (!(diameter / seeing.fried_parameter <= strongest_turbulence)) {
+    throw InputError(
+        "seeing.fried_parameter", seeing.fried_parameter,
+        fmt::format("at least the diameter, {:g} m, over {:g}", diameter, strongest_turbulence));
+  }
   const double longest = std::numbers::sqrt2 * (samples - 1);  // in samples
   const EmbeddedCovariance covariance(longest * diameter / samples, seeing);
   tilt_per_sample_ = std::sqrt(2.0 * covariance.quadratic()) / longest;

@@ -3,11 +3,18 @@
 #include "model/fresnel_propagator.hpp"
 #include "model/line_kernels.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
 
 namespace nlcwfs {
+namespace {
+
+constexpr unsigned longest_period = 1U << 24U;
+constexpr double least_period_margin = 4.0;
+
+}  // namespace
 
 WrapFreePropagator::WrapFreePropagator(int pupil_samples, int window_samples, double pitch,
                                        double wavelength, double period_margin)
@@ -20,13 +27,19 @@ WrapFreePropagator::WrapFreePropagator(int pupil_samples, int window_samples, do
   assert((window_samples - pupil_samples) % 2 == 0);
 }
 
+double WrapFreePropagator::farthest_distance() const {
+  const double farthest_reach = longest_period / least_period_margin;
+  return (farthest_reach - transform_.length()) * 2.0 * pitch_ * pitch_ / wavelength_;
+}
+
 Eigen::ArrayXcd WrapFreePropagator::transfer_function(double distance) const {
   const int length = transform_.length();
+  assert(std::abs(distance) <= farthest_distance());
   // The kernel's tails beyond the reach of the band limit alternate in sign and fall with the
   // square of the distance, so that a period of many reaches leaves nothing of them.
   const double reach = wavelength_ * std::abs(distance) / (2.0 * pitch_ * pitch_) + length;
-  const auto period =
-      static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(period_margin_ * reach))));
+  const auto period = static_cast<int>(std::min(
+      longest_period, std::bit_ceil(static_cast<unsigned>(std::ceil(period_margin_ * reach)))));
   const Eigen::ArrayXcd spectrum =
       fresnel_transfer_function(period, pitch_, wavelength_, distance) / double(period);
   Eigen::ArrayXcd kernel(period);

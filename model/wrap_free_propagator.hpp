@@ -28,7 +28,12 @@ class WrapFreePropagator {
   WrapFreePropagator(int pupil_samples, int window_samples, double pitch, double wavelength,
                      double period_margin = 64.0);
 
+  /// The farthest plane, m: beyond it the kernel's period would have to be longer than 2^24 samples
+  /// (1 GiB of work space) to leave the light room for four times its reach.
+  double farthest_distance() const;
+
   /// The kernel's discrete transform along one axis for a plane at `distance` (m, signed).
+  /// @pre |distance| <= farthest_distance()
   Eigen::ArrayXcd transfer_function(double distance) const;
 
   /// The transform of a pupil field (pupil_samples x pupil_samples), shared by all planes.

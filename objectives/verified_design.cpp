@@ -3,11 +3,16 @@
 #include <cassert>
 #include <cmath>
 
+#include <boost/math/distributions/students_t.hpp>
+
 namespace nlcwfs {
 namespace {
 
-/// Differences of fewer standard errors are chance in one case of 20.
-constexpr double distinguishable = 2.0;
+/// How many standard errors a mean difference of so many screens must be from 0 for chance to be as
+/// good only in one case of 20: Student's t, two-sided; 2.0 for 60 screens.
+double distinguishable(std::size_t screens) {
+  return boost::math::quantile(boost::math::students_t(double(screens - 1)), 0.975);
+}
 
 }  // namespace
 
@@ -25,7 +30,8 @@ Improvement improvement(const VerifiedDesign& candidate, const VerifiedDesign& r
     differences.push_back(reference.costs[screen] - candidate.costs[screen]);
   }
   const MeanAndError cost = mean_and_standard_error(differences);
-  if (std::abs(cost.mean) <= distinguishable * cost.standard_error) {
+  if (differences.size() < 2 ||
+      std::abs(cost.mean) <= distinguishable(differences.size()) * cost.standard_error) {
     return {cost, Verdict::indistinguishable};
   }
   return {cost, cost.mean > 0.0 ? Verdict::better : Verdict::worse};

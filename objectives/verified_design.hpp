@@ -24,7 +24,7 @@ enum class Verdict { better, indistinguishable, worse };
 /// How much cheaper one design is than another on the same screens.
 struct Improvement {
   MeanAndError cost;  ///< reference - candidate, paired by screen: above 0 is better
-  Verdict verdict;    ///< by whether the mean is more than two standard errors from 0
+  Verdict verdict;    ///< by Student's t test at 5 %, two-sided
 };
 
 /// Compares two designs that were verified on the same screens.

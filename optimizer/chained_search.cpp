@@ -3,7 +3,6 @@
 #include "optimizer/nlopt_backend.hpp"
 
 #include <algorithm>
-#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <stdexcept>

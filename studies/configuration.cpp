@@ -298,10 +298,6 @@ const std::string& Configuration::text(std::string_view key) const {
 
 bool Configuration::is_set(std::string_view key) const { return !value_text(key).empty(); }
 
-bool Configuration::is_default(std::string_view key) const {
-  return value_text(key) == configuration_keys().at(index_of(key)).default_text;
-}
-
 const std::string& Configuration::source(std::string_view key) const {
   return values_.at(index_of(key)).source;
 }

@@ -115,9 +115,6 @@ class Configuration {
   const std::string& text(std::string_view key) const;
 
   bool is_set(std::string_view key) const;
-  /// Whether the value is the default's text, whoever set it: so a run and a run from its dump
-  /// agree.
-  bool is_default(std::string_view key) const;
   /// "by default", "by --preset paper", "in my.cfg, line 3", "on the command line", ...
   const std::string& source(std::string_view key) const;
   /// The value as written, of any kind; empty where not set. For messages about values.

@@ -40,7 +40,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "4",
        .description = "Pupil diameter over Fried parameter at telescope.wavelength. One measure of "
                       "the seeing: set this, fried_parameter or fwhm.",
-       .bounds = above(0)},
+       .bounds = {.least = 0, .greatest = 1e4, .least_included = false}},
       {.name = "seeing.fried_parameter",
        .kind = Kind::length,
        .description = "Fried parameter r0 at seeing.reference_wavelength, instead of d_over_r0.",
@@ -63,7 +63,7 @@ std::vector<ConfigurationKey> make_keys() {
       {.name = "seeing.outer_scale",
        .kind = Kind::length,
        .description = "Outer scale of the turbulence (von Karman). Not set: infinite (Kolmogorov).",
-       .bounds = above(0),
+       .bounds = at_least(1e-3),
        .example = "25m"},
 
       {.name = "screens.count",
@@ -94,8 +94,8 @@ std::vector<ConfigurationKey> make_keys() {
       {.name = "detector.pupil_pixels",
        .kind = Kind::integer,
        .default_text = "64",
-       .description = "Detector pixels across the pupil diameter.",
-       .bounds = from_to(2, 4096)},
+       .description = "Detector pixels across the pupil diameter, an even number.",
+       .bounds = from_to(4, 8192)},
       {.name = "detector.window",
        .kind = Kind::number,
        .default_text = "4",
@@ -120,13 +120,13 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::integer,
        .default_text = "20",
        .description = "Gerchberg-Saxton loops after which an unconverged reconstruction ends.",
-       .bounds = from_to(1, 1e6)},
+       .bounds = from_to(1, 10000)},
       {.name = "reconstruction.tolerance",
        .kind = Kind::length,
        .default_text = "1nm",
        .description = "Change between consecutive loops below which the reconstruction has "
-                      "converged, as optical path.",
-       .bounds = above(0)},
+                      "converged, as optical path; 0 = always max_loops.",
+       .bounds = at_least(0)},
       {.name = "reconstruction.stopping",
        .kind = Kind::choice,
        .default_text = "difference",
@@ -228,7 +228,10 @@ std::vector<ConfigurationKey> make_keys() {
       {.name = "search.optimizer",
        .kind = Kind::text,
        .default_text = "auto",
-       .description = "Name of the optimizer; auto chooses one that suits the search."},
+       .description = "Method: GLOBAL+LOCAL, one of either, or auto (direct_l+sbplx, or "
+                      "direct_l+nelder_mead for three and more variables). Global: direct_l, crs2; "
+                      "local: sbplx, nelder_mead, bobyqa, cobyla.",
+       .example = "direct_l+bobyqa"},
       {.name = "search.plane_count",
        .kind = Kind::integer,
        .default_text = "4",
@@ -303,9 +306,11 @@ std::vector<ConfigurationKey> make_keys() {
 
       {.name = "verify.screens",
        .kind = Kind::integer,
-       .default_text = "64",
-       .description = "Number of fresh phase screens that the result of a search is verified on.",
-       .bounds = from_to(2, 1e6)},
+       .description =
+           "Number of fresh phase screens that the result of a search is verified on. Not "
+           "set: 64, or four times screens.count where that is more.",
+       .bounds = from_to(2, 1e6),
+       .example = "256"},
       {.name = "verify.seed",
        .kind = Kind::seed,
        .default_text = "1000003",

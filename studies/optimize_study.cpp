@@ -43,8 +43,7 @@ SearchOptions search_options_of(const Configuration& configuration, const PlaneL
   return options;
 }
 
-/// What the configuration asks for, checked as a whole before anything is written; the screens,
-/// which take longest, come last.
+/// What the configuration asks for, checked as a whole before anything is written.
 struct Task {
   explicit Task(const Configuration& configuration);
 
@@ -70,8 +69,13 @@ Task::Task(const Configuration& configuration)
       verification(verification_of(configuration)),
       design(simulation.checked(design_of(configuration))),
       baseline(simulation.checked(baseline_of(configuration))) {
-  verification.checked(design);
-  verification.checked(baseline);
+  try {
+    verification.checked(design);
+    verification.checked(baseline);
+  } catch (const InputError& error) {
+    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
+                     fmt::format("the finer truth does not suit the design: {}", error.what()));
+  }
   if (!configuration.text("screens.file").empty()) {
     notes.emplace_back("the verification is on simulated screens of the configured seeing");
   }
@@ -158,6 +162,15 @@ Json design_object(const VerifiedDesign& verified, const Task& task) {
   return json;
 }
 
+/// The best designs that differ, with what they cost on the screens of the search.
+Json leaders_array(const SearchResult& result, const Task& task) {
+  Json leaders = Json::array();
+  for (const EvaluatedDesign& leader : result.best_designs) {
+    leaders.push_back({{"planes_m", task.layout->planes(leader.point)}, {"cost", leader.cost}});
+  }
+  return leaders;
+}
+
 Json stages_array(const SearchResult& result) {
   Json stages = Json::array();
   for (const SearchStage& stage : result.stages) {
@@ -191,7 +204,7 @@ std::string verdict_text(const Improvement& improvement, const VerifiedDesign& b
     case Verdict::indistinguishable:
       return fmt::format(
           "The baseline is NOT beaten: on fresh screens its cost minus the best design's is {}, "
-          "within two standard errors of nothing.",
+          "which may well be chance.",
           with_error(improvement.cost));
     case Verdict::worse:
       break;
@@ -229,16 +242,17 @@ void print_result(const Task& task, const SearchResult& result, double search_se
 
 void run_optimize(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
+  const auto start = Clock::now();
   const Task task(configuration);
   RunRecord record(command_line);
 
-  const auto start = Clock::now();
   PlacementProblem problem(task.simulation, *task.layout, task.design, task.cost);
   SearchLog log(task, problem, record, command_line.quiet);
   SearchOptions options = task.search;
   options.evaluation.observer = [&](const EvaluationRecord& evaluation) { log.add(evaluation); };
+  const auto search_start = Clock::now();
   const SearchResult result = search(problem, options);
-  const double search_seconds = seconds_since(start);
+  const double search_seconds = seconds_since(search_start);
 
   const VerifiedDesign best = verify_and_archive(problem.design(result.best->point), "best design",
                                                  task, record, command_line.quiet);
@@ -255,8 +269,9 @@ void run_optimize(const CommandLine& command_line) {
       {{"best", design_object(best, task)},
        {"baseline", design_object(baseline, task)},
        {"improvement", {{"cost", gain.cost.mean}, {"standard_error", gain.cost.standard_error}}},
-       {"best_cost_in_search", result.best->cost},
+       {"leaders_of_search", leaders_array(result, task)},
        {"evaluations", result.evaluations},
+       {"cache_hits", result.cache_hits},
        {"failures", result.failures},
        {"reconstructions", (result.evaluations - result.failures) * task.simulation.screen_count() +
                                2 * task.verification.screen_count()},

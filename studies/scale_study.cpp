@@ -75,6 +75,9 @@ void run_scale(const CommandLine& command_line) {
       }
     }
   }
+  // Equal designs are equal in waves, and so are their costs.
+  set("objective.wfe_scale", fmt::format("{}", configuration.length("objective.wfe_scale") *
+                                                   target.wavelength / telescope.wavelength));
   set("reconstruction.tolerance", fmt::format("{}", scaled.reconstruction.tolerance));
   record.folder().write("scaled.cfg", scaled_configuration.dump());
   record.write_summary({{"design", to_json(design, telescope, seeing.fried_parameter)},

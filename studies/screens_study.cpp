@@ -68,12 +68,13 @@ void run_screens(const CommandLine& command_line) {
 
   std::vector<FitsKeyword> keywords{
       {"DIAMETER", telescope.diameter, "[m] pupil diameter = width of the square"},
-      {"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"},
-      {"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"}};
+      {"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"}};
+  // What made the screens of a file is not known.
   if (configuration.text("screens.file").empty()) {
     keywords.push_back({"SEED", configuration.seed("screens.seed"), "seed of the screens"});
+    keywords.push_back({"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"});
+    if (seeing.outer_scale) keywords.push_back({"L0", *seeing.outer_scale, "[m] outer scale"});
   }
-  if (seeing.outer_scale) keywords.push_back({"L0", *seeing.outer_scale, "[m] outer scale"});
   record.folder().write("structure_function.csv",
                         structure_function_table(screens, telescope.diameter / samples, seeing));
   const std::size_t count = screens.size();
@@ -89,10 +90,10 @@ void run_screens(const CommandLine& command_line) {
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n\n{} screens of {} x {} samples in screens.fits, rad\n",
              telescope_line(telescope, seeing), count, samples, samples);
-  fmt::print("  {:<34} {:>20} {:>12}\n", "variance over the pupil, rad^2", "these screens",
-             "Kolmogorov");
-  fmt::print("  {:<34} {:>20} {:>12.4g}\n", "piston removed", with_error(variance), expected);
-  fmt::print("  {:<34} {:>20} {:>12.4g}\n", "piston, tip and tilt removed",
+  fmt::print("  {:<34} {:>20} {:>28}\n", "variance over the pupil, rad^2", "these screens",
+             "Kolmogorov, clear, no L0");
+  fmt::print("  {:<34} {:>20} {:>28.4g}\n", "piston removed", with_error(variance), expected);
+  fmt::print("  {:<34} {:>20} {:>28.4g}\n", "piston, tip and tilt removed",
              with_error(tilt_removed), expected_tilt_removed);
   fmt::print("\n{}\n", record.closing_line());
 }

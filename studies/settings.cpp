@@ -6,6 +6,7 @@
 #include "model/turbulence_screen.hpp"
 #include "results/fits_cube.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -58,14 +59,20 @@ void require_memory(std::string_view key, const Value& value, int count, int sam
 }
 
 std::vector<PhaseScreen> simulated_screens(const Configuration& configuration,
-                                           const Telescope& telescope, int samples,
+                                           const Telescope& telescope, int samples, int count,
                                            std::string_view count_key, std::string_view seed_key) {
-  const int count = configuration.integer(count_key);
   require_memory(count_key, count, count, samples);
   return generate_screens(
       TurbulenceScreenGenerator(seeing_of(configuration, telescope), samples, telescope.diameter,
                                 configuration.seed(seed_key)),
       count);
+}
+
+/// By default four times the search's, so that the verification adds little noise of its own.
+int verification_screens(const Configuration& configuration) {
+  return configuration.is_set("verify.screens")
+             ? configuration.integer("verify.screens")
+             : std::max(64, 4 * configuration.integer("screens.count"));
 }
 
 std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
@@ -109,12 +116,16 @@ void scale_default_planes(Configuration& configuration) {
   const Telescope telescope = telescope_of(configuration);
   if (telescope.diameter == papers.diameter && telescope.wavelength == papers.wavelength) return;
   const std::string by_default = Configuration().source("sensor.planes");
+  Configuration preset;
+  preset.apply_preset("paper");
+  const std::string by_preset = preset.source("sensor.planes");
   for (const char* key : {"sensor.planes", "baseline.planes"}) {
-    if (configuration.source(key) != by_default) continue;
+    const std::string& source = configuration.source(key);
+    if (source != by_default && source != by_preset) continue;
     std::vector<double> planes = configuration.lengths(key);
     for (double& plane : planes) plane = scaled_distance(plane, papers, telescope);
     configuration.set(key, fmt::format("{}", fmt::join(planes, ",")),
-                      "by default, at the paper's Fresnel numbers");
+                      source + ", at the paper's Fresnel numbers");
   }
 }
 
@@ -204,6 +215,10 @@ std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
     }
   }
   if (is_symmetric) {
+    if (plane_count != 4) {
+      throw InputError("search.plane_count", plane_count,
+                       "4 in a symmetric layout; other numbers are for search.layout = free");
+    }
     const DistanceRange both{nearest, farthest};
     return std::make_unique<SymmetricLayout>(
         telescope, configuration.length_range("search.z_near").value_or(both),
@@ -232,7 +247,8 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
   if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
     return screens_from_file(file, telescope, samples, notes);
   }
-  return simulated_screens(configuration, telescope, samples, "screens.count", "screens.seed");
+  return simulated_screens(configuration, telescope, samples,
+                           configuration.integer("screens.count"), "screens.count", "screens.seed");
 }
 
 Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes) {
@@ -268,7 +284,7 @@ Simulation verification_of(const Configuration& configuration) {
   }
   return {telescope,
           simulated_screens(configuration, telescope, truth_samples(configuration) * factor,
-                            "verify.screens", "verify.seed"),
+                            verification_screens(configuration), "verify.screens", "verify.seed"),
           options};
 }
 

@@ -19,8 +19,8 @@ namespace nlcwfs {
 
 Telescope telescope_of(const Configuration& configuration);
 
-/// The planes that stand by default, those of the paper's telescope, moved to the configured
-/// telescope at constant Fresnel numbers.
+/// The planes that stand by default or by the paper's preset, which are those of the paper's
+/// telescope, moved to the configured telescope at constant Fresnel numbers.
 void scale_default_planes(Configuration& configuration);
 
 /// With the Fried parameter brought to the telescope's wavelength.

@@ -32,15 +32,24 @@ TEST(Improvement, IsAntisymmetric) {
   EXPECT_EQ(back.verdict, Verdict::worse);
 }
 
-TEST(Improvement, WithinTwoStandardErrorsIsNone) {
-  // Differences mean +- 1 on two screens: standard error 1.
-  const auto verdict_at = [](double mean) {
-    return improvement(with_costs({0.0, 0.0}), with_costs({mean + 1.0, mean - 1.0})).verdict;
+TEST(Improvement, WithinStudentsQuantileIsChance) {
+  // Differences mean +- 1 on n screens; the quantiles are those of printed tables.
+  const auto verdict_at = [](int screens, double standard_errors) {
+    std::vector<double> reference(static_cast<std::size_t>(screens));
+    const double mean = standard_errors / std::sqrt(screens - 1.0);
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      reference[i] = mean + (i % 2 == 0 ? 1.0 : -1.0);
+    }
+    return improvement(with_costs(std::vector<double>(reference.size(), 0.0)),
+                       with_costs(reference))
+        .verdict;
   };
-  EXPECT_EQ(verdict_at(2.0), Verdict::indistinguishable);
-  EXPECT_EQ(verdict_at(-2.0), Verdict::indistinguishable);
-  EXPECT_EQ(verdict_at(2.01), Verdict::better);
-  EXPECT_EQ(verdict_at(-2.01), Verdict::worse);
+  for (const auto& [screens, quantile] : {std::pair{2, 12.706}, {4, 3.182}, {64, 1.998}}) {
+    EXPECT_EQ(verdict_at(screens, 0.999 * quantile), Verdict::indistinguishable) << screens;
+    EXPECT_EQ(verdict_at(screens, -0.999 * quantile), Verdict::indistinguishable) << screens;
+    EXPECT_EQ(verdict_at(screens, 1.001 * quantile), Verdict::better) << screens;
+    EXPECT_EQ(verdict_at(screens, -1.001 * quantile), Verdict::worse) << screens;
+  }
 }
 
 TEST(Improvement, OfADesignOnItselfIsZeroAndIndistinguishable) {

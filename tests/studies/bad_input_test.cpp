@@ -105,6 +105,15 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
                  "at least 2 distances");
   expect_refused("evaluate", {"--sensor.planes", "47km,5000km"}, "sensor.planes = 5000000",
                  "Fresnel number is 0.1");
+  expect_refused("evaluate", {"--telescope.central_obscuration", "0.99"},
+                 "telescope.central_obscuration = 0.99", "leaves none of 16 x 16 samples");
+  expect_refused("evaluate",
+                 {"--detector.window", "1", "--simulation.pupil_samples", "8192", "--sensor.planes",
+                  "47km,4000km"},
+                 "sensor.planes = 4000000", "fewer samples reach farther");
+  expect_refused("evaluate", {"--seeing.d_over_r0", "1e200"}, "seeing.d_over_r0 = 1e200", "10000");
+  expect_refused("evaluate", {"--seeing.fwhm", "1e9"},
+                 "seeing.fried_parameter = 1.0709928787729236e-10", "at least the diameter");
   expect_refused("scale", {}, "scale.diameter = (nothing)", "such as --scale.diameter 8.2m");
 }
 
@@ -131,6 +140,12 @@ TEST_F(BadInput, OfASearch) {
                  "search.z5 = 5km:50km", "4 planes, see search.plane_count");
   expect_refused("optimize", {"--baseline.planes", "47km"}, "baseline.planes = 47000",
                  "at least 2 distances");
+  expect_refused("optimize", {"--search.plane_count", "3"}, "search.plane_count = 3",
+                 "search.layout = free");
+  expect_refused("optimize",
+                 {"--reconstruction.oversampling", "6", "--reconstruction.window", "2",
+                  "--simulation.pupil_samples", "32", "--verify.truth_factor", "2"},
+                 "verify.truth_factor = 2", "the finer truth does not suit the design");
   expect_refused("optimize", {"--search.budget", "0"}, "search.budget = 0", "from 1");
   expect_refused("optimize", {"--verify.screens", "1"}, "verify.screens = 1", "from 2");
 }

@@ -134,6 +134,25 @@ TEST(Settings, TheVerificationsScreensMustBeFresh) {
               HasSubstr("verify.seed = 7: another seed than screens.seed"));
 }
 
+TEST(Settings, TheVerificationHasFourTimesTheSearchsScreensUnlessSaidOtherwise) {
+  const auto screens = [](const char* count) {
+    return verification_of(with({{"screens.count", count},
+                                 {"detector.pupil_pixels", "16"},
+                                 {"simulation.pupil_samples", "16"}}))
+        .screen_count();
+  };
+  EXPECT_EQ(screens("2"), 64);
+  EXPECT_EQ(screens("20"), 80);
+}
+
+TEST(Settings, ThePapersPresetKeepsItsFresnelNumbersAtAnotherTelescope) {
+  Configuration configuration;
+  configuration.apply_preset("paper");
+  configuration.set("telescope.diameter", "1m", here);
+  scale_default_planes(configuration);
+  EXPECT_THAT(configuration.lengths("sensor.planes"), ElementsAre(-188e3, 188e3, -720e3, 720e3));
+}
+
 TEST(Settings, TheVerificationsTruthIsFinerAndNoLongerMatched) {
   const Configuration configuration = with({{"simulation.truth", "matched"},
                                             {"detector.pupil_pixels", "16"},
