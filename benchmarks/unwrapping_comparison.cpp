@@ -71,6 +71,7 @@ std::vector<Image<double>> images_of(const PhaseScreen& truth, const PupilMask& 
                                      int samples_per_pixel) {
   const Field<double> spectrum = propagator.spectrum(pupil_field(truth, truth_mask));
   std::vector<Image<double>> images;
+  images.reserve(transfer_functions.size());
   for (const Eigen::ArrayXcd& transfer : transfer_functions) {
     images.push_back(integrate_pixels(propagator.field(spectrum, transfer), samples_per_pixel));
   }
@@ -83,6 +84,7 @@ std::vector<Outcome> outcomes_of(const Telescope& telescope, const SensorDesign&
   const GerchbergSaxton<double> reconstructor(telescope, design);
   const PupilMask& mask = reconstructor.mask();
   std::vector<PhaseUnwrapper> unwrappers;
+  unwrappers.reserve(methods.size());
   for (const UnwrappingMethod method : methods) unwrappers.emplace_back(mask, method);
 
   const PupilMask truth_mask = pupil_mask(truth_samples, telescope.central_obscuration);

@@ -149,7 +149,9 @@ std::vector<po::option> parse_options(int argc, const char* const* argv,
 }
 
 /// @param earlier  the command that was given before, or empty
-std::string parse_command(const std::string& value, const std::string& earlier) {
+std::string parse_command(const std::string& value, const std::string& earlier,
+                          const po::options_description& options) {
+  if (value.starts_with('-')) refuse_unknown(value, options);
   if (!earlier.empty()) {
     throw InputError("command line", one_line(value),
                      fmt::format("nothing may follow the command {} but options, such as "
@@ -203,8 +205,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     const std::string& key = option.string_key;
     const std::string value = option.value.empty() ? "" : option.value.front();
     if (option.position_key >= 0) {
-      if (value.starts_with('-')) refuse_unknown(value, known);
-      result.command = parse_command(value, result.command);
+      result.command = parse_command(value, result.command, known);
       continue;
     }
     if (!seen.insert(key).second && key != "config") {
