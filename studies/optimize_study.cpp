@@ -5,6 +5,7 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
+#include "studies/interrupt.hpp"
 #include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <stop_token>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -138,6 +140,19 @@ class SearchLog {
       {"evaluation", "planes_m", "cost", "residual_wfe_nm", "fractional_loops", "failure"}};
 };
 
+/// The search; Ctrl-C ends it with the best design so far.
+SearchResult search_until_interrupted(PlacementProblem& problem, SearchOptions options,
+                                      SearchLog& log) {
+  const InterruptWatch watch;
+  std::stop_source stop;
+  options.evaluation.stop = stop.get_token();
+  options.evaluation.observer = [&](const EvaluationRecord& evaluation) {
+    log.add(evaluation);
+    if (watch.interrupted()) stop.request_stop();
+  };
+  return search(problem, options);
+}
+
 VerifiedDesign verify_and_archive(const SensorDesign& design, std::string_view name,
                                   const Task& task, RunRecord& record, bool quiet) {
   ProgressLine progress(quiet);
@@ -191,7 +206,7 @@ std::string_view ending_text(Termination termination) {
     case Termination::stop_requested:
       break;
   }
-  return "until it was stopped";
+  return "until it was interrupted";
 }
 
 std::string verdict_text(const Improvement& improvement, const VerifiedDesign& baseline) {
@@ -248,10 +263,8 @@ void run_optimize(const CommandLine& command_line) {
 
   PlacementProblem problem(task.simulation, *task.layout, task.design, task.cost);
   SearchLog log(task, problem, record, command_line.quiet);
-  SearchOptions options = task.search;
-  options.evaluation.observer = [&](const EvaluationRecord& evaluation) { log.add(evaluation); };
   const auto search_start = Clock::now();
-  const SearchResult result = search(problem, options);
+  const SearchResult result = search_until_interrupted(problem, task.search, log);
   const double search_seconds = seconds_since(search_start);
 
   const VerifiedDesign best = verify_and_archive(problem.design(result.best->point), "best design",

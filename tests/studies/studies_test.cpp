@@ -115,6 +115,21 @@ TEST_F(Studies, EvaluateLeavesItsFiles) {
               json["design"]["performance"]["residual_wfe_nm"]["mean"], 1e-9);
 }
 
+TEST_F(Studies, AnInterruptedOptimizeVerifiesTheBestSoFar) {
+  for (const char* signal : {"INT", "TERM"}) {
+    const ProgramRun finished =
+        run({"optimize", "--config", "tiny.cfg", "--output", signal, "--search.budget", "1000000"},
+            fmt::format("timeout --preserve-status --signal {} 2 ", signal));
+    EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+    EXPECT_THAT(finished.output, HasSubstr("until it was interrupted"));
+    const Json json = summary(signal);
+    EXPECT_EQ(json["termination"], "stop_requested");
+    EXPECT_EQ(json["best"]["performance"]["screens"], 2);
+    EXPECT_EQ(archived(signal, "SELECT count(*) FROM evaluations WHERE stage = 'search'"),
+              json["evaluations"]);
+  }
+}
+
 TEST_F(Studies, OptimizeSaysWhereTheBaselineIsNotBeaten) {
   // The only design that is tried is the baseline itself.
   const ProgramRun finished =

@@ -1,0 +1,22 @@
+#pragma once
+
+namespace nlcwfs {
+
+/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM is only noted, so that work can come to a
+/// clean end; the second ends the program at once. One at a time.
+class InterruptWatch {
+ public:
+  InterruptWatch();
+  ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+  /// Whether there was a first one.
+  bool interrupted() const;
+
+ private:
+  void (*previous_interrupt_)(int);
+  void (*previous_terminate_)(int);
+};
+
+}  // namespace nlcwfs
