@@ -7,7 +7,7 @@ namespace nlcwfs {
 namespace {
 
 /// A signal handler has nothing else to tell of a signal with.
-std::atomic<bool> noted = false;
+std::atomic<bool> noted = false;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 static_assert(std::atomic<bool>::is_always_lock_free, "or a signal handler may not touch it");
 
 extern "C" void note_interrupt(int signal) {
@@ -18,17 +18,16 @@ extern "C" void note_interrupt(int signal) {
 
 }  // namespace
 
-InterruptWatch::InterruptWatch() {
-  noted = false;
-  previous_interrupt_ = std::signal(SIGINT, note_interrupt);
-  previous_terminate_ = std::signal(SIGTERM, note_interrupt);
-}
+InterruptWatch::InterruptWatch()
+    : previous_interrupt_(std::signal(SIGINT, note_interrupt)),
+      previous_terminate_(std::signal(SIGTERM, note_interrupt)) {}
 
 InterruptWatch::~InterruptWatch() {
   std::signal(SIGINT, previous_interrupt_);
   std::signal(SIGTERM, previous_terminate_);
+  noted = false;
 }
 
-bool InterruptWatch::interrupted() const { return noted; }
+bool InterruptWatch::interrupted() { return noted; }
 
 }  // namespace nlcwfs

@@ -11,8 +11,8 @@ class InterruptWatch {
   InterruptWatch(const InterruptWatch&) = delete;
   InterruptWatch& operator=(const InterruptWatch&) = delete;
 
-  /// Whether there was a first one.
-  bool interrupted() const;
+  /// Whether the one that lives has noted the first.
+  static bool interrupted();
 
  private:
   void (*previous_interrupt_)(int);

@@ -148,7 +148,7 @@ SearchResult search_until_interrupted(PlacementProblem& problem, SearchOptions o
   options.evaluation.stop = stop.get_token();
   options.evaluation.observer = [&](const EvaluationRecord& evaluation) {
     log.add(evaluation);
-    if (watch.interrupted()) stop.request_stop();
+    if (InterruptWatch::interrupted()) stop.request_stop();
   };
   return search(problem, options);
 }

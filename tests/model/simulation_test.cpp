@@ -50,6 +50,7 @@ Performance evaluate(const SensorDesign& design, const std::vector<PhaseScreen>&
 std::vector<PhaseScreen> changed(const std::vector<PhaseScreen>& screens,
                                  PhaseScreen (*change)(const PhaseScreen&)) {
   std::vector<PhaseScreen> result;
+  result.reserve(screens.size());
   for (const PhaseScreen& screen : screens) result.push_back(change(screen));
   return result;
 }
@@ -97,7 +98,7 @@ void expect_identical(const Performance& result, const Performance& expected) {
 /// Both truths, each with a design that is possible with it.
 class SimulationTruth : public testing::TestWithParam<TruthModel> {
  protected:
-  bool matched() const { return GetParam() == TruthModel::matched; }
+  static bool matched() { return GetParam() == TruthModel::matched; }
 
   SensorDesign design_ = matched() ? matched_design() : small_design();
   SimulationOptions options_{.truth = GetParam()};
@@ -323,7 +324,7 @@ TEST(Simulation, NamesWhatDoesNotFitTheTruth) {
   const auto screens = turbulence(1);
   const Simulation extended({}, screens, {});
   const auto refusal = [&](const Simulation& simulation, const SensorDesign& design) {
-    const std::string message = message_of([&] { (void)simulation.checked(design); });
+    std::string message = message_of([&] { (void)simulation.checked(design); });
     EXPECT_EQ(message_of([&] { (void)simulation.evaluate(design); }), message);
     return message;
   };

@@ -119,7 +119,8 @@ TEST_F(Studies, AnInterruptedOptimizeVerifiesTheBestSoFar) {
   for (const char* signal : {"INT", "TERM"}) {
     const ProgramRun finished =
         run({"optimize", "--config", "tiny.cfg", "--output", signal, "--search.budget", "1000000"},
-            fmt::format("timeout --preserve-status --signal {} 2 ", signal));
+            // In the foreground, or timeout signals the process and its group: twice.
+            fmt::format("timeout --foreground --preserve-status --signal {} 2 ", signal));
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
     EXPECT_THAT(finished.output, HasSubstr("until it was interrupted"));
     const Json json = summary(signal);
