@@ -2,6 +2,7 @@
 
 #include "model/line_kernels.hpp"
 #include "model/loop_change.hpp"
+#include "model/sample_positions.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -22,9 +23,7 @@ Eigen::Array2d centroid_slope(std::span<const Image<double>> images,
     const double light = image.sum();
     if (!(light > 0.0)) continue;
     const auto width = image.rows();
-    const Eigen::ArrayXd position =
-        Eigen::ArrayXd::LinSpaced(width, -0.5 * double(width - 1), 0.5 * double(width - 1)) *
-        pixel_pitch;
+    const Eigen::ArrayXd position = sample_positions(width) * pixel_pitch;
     const double x = (image.colwise().sum().transpose() * position).sum() / light;
     const double y = (image.rowwise().sum() * position).sum() / light;
     shift_moment += planes[plane] * Eigen::Array2d(x, y);
@@ -111,8 +110,7 @@ Field<double> GerchbergSaxton<Real>::first_estimate(std::span<const Image<double
         centroid_slope(images, design_.planes, pitch_ * design_.reconstruction.oversampling);
     const auto samples = mask_.rows();
     const Eigen::ArrayXd position =
-        Eigen::ArrayXd::LinSpaced(samples, -0.5 * double(samples - 1), 0.5 * double(samples - 1)) *
-        (2.0 * std::numbers::pi / wavelength_ * pitch_);
+        sample_positions(samples) * (2.0 * std::numbers::pi / wavelength_ * pitch_);
     phase.rowwise() += slope.x() * position.transpose();
     phase.colwise() += slope.y() * position;
   }

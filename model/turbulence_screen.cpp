@@ -2,6 +2,7 @@
 
 #include "model/input_error.hpp"
 #include "model/random_stream.hpp"
+#include "model/sample_positions.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -157,8 +158,7 @@ std::array<PhaseScreen, 2> TurbulenceScreenGenerator::screen_pair(int pair) cons
     transform_.forward(in, out);
   });
 
-  const Eigen::ArrayXd position =
-      Eigen::ArrayXd::LinSpaced(samples_, -0.5 * (samples_ - 1), 0.5 * (samples_ - 1));
+  const Eigen::ArrayXd position = sample_positions(samples_);
   const auto with_tilt = [&](PhaseScreen screen) {
     const double slope_x = tilt_per_sample_ * normal(generator);
     const double slope_y = tilt_per_sample_ * normal(generator);
