@@ -67,12 +67,12 @@ double share_of_samples_off(const Field<double>& field, const Image<double>& unw
 /// The noise-free images of a wavefront.
 std::vector<Image<double>> images_of(const PhaseScreen& truth, const PupilMask& truth_mask,
                                      const WrapFreePropagator& propagator,
-                                     const std::vector<Eigen::ArrayXcd>& transfer_functions,
+                                     const std::vector<LineFactors<double>>& transfer_functions,
                                      int samples_per_pixel) {
   const Field<double> spectrum = propagator.spectrum(pupil_field(truth, truth_mask));
   std::vector<Image<double>> images;
   images.reserve(transfer_functions.size());
-  for (const Eigen::ArrayXcd& transfer : transfer_functions) {
+  for (const LineFactors<double>& transfer : transfer_functions) {
     images.push_back(integrate_pixels(propagator.field(spectrum, transfer), samples_per_pixel));
   }
   return images;
@@ -92,7 +92,7 @@ std::vector<Outcome> outcomes_of(const Telescope& telescope, const SensorDesign&
   const WrapFreePropagator propagator(truth_samples,
                                       grid_width(design.detector.window, truth_samples),
                                       telescope.diameter / truth_samples, telescope.wavelength);
-  std::vector<Eigen::ArrayXcd> transfer_functions;
+  std::vector<LineFactors<double>> transfer_functions;
   for (const double plane : design.planes) {
     transfer_functions.push_back(propagator.transfer_function(plane));
   }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "model/array.hpp"
+#include "model/line_kernels.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <complex>
 #include <memory>
 
@@ -36,13 +38,12 @@ class LineTransform {
   std::shared_ptr<const Plans> plans_;
 };
 
-/// A samples x samples field of zeros in the left columns of rows that are one cache line longer:
-/// without it, rows of a power of two map columns onto few cache sets, and the column transforms
-/// take twice as long.
+/// Zeros: `lines` rows of `length` samples and one unused cache line. Without it, rows of a power
+/// of two samples map columns onto few cache sets, and what goes by columns takes twice as long.
 template <class Real>
-Field<Real> padded_field(Eigen::Index samples) {
+Field<Real> padded_lines(Eigen::Index lines, Eigen::Index length) {
   constexpr Eigen::Index cache_line = 64 / sizeof(std::complex<Real>);
-  return Field<Real>::Zero(samples, samples + cache_line);
+  return Field<Real>::Zero(lines, length + cache_line);
 }
 
 /// Replaces the first `samples` samples of the rows first <= row < last: `operation(in, out)` makes
@@ -57,23 +58,44 @@ void for_each_row(Field<Real>& field, Eigen::Index samples, Eigen::Index first, 
   }
 }
 
-/// Replaces the first `columns` columns: `operation(in, out, column)` makes the new column from the
-/// old one, both gathered in contiguous buffers. Columns go in blocks so that each cache line of
-/// the field is read and written once.
+/// Rows first <= row < last.
+struct RowRange {
+  Eigen::Index first;
+  Eigen::Index last;
+
+  Eigen::Index size() const { return last - first; }
+};
+
+/// For each of the first `columns` columns, `operation(from, to, column)` makes the new column `to`
+/// from the old one `from`, both contiguous lines of in.rows() values. Only the rows `read` of `in`
+/// are read, the others count as zero; only the rows `written` of `out`, which may be `in`, are
+/// written.
+///
+/// Columns go in blocks, so that each cache line of a field is read and written once.
 template <class Real, class Operation>
-void for_each_column(Field<Real>& field, Eigen::Index columns, const Operation& operation) {
-  constexpr Eigen::Index block = 16;
-  using Lines = Eigen::Array<std::complex<Real>, Eigen::Dynamic, block>;
-  Lines lines(field.rows(), block);
-  Lines results(field.rows(), block);
+void for_each_column(const Field<Real>& in, RowRange read, Field<Real>& out, RowRange written,
+                     Eigen::Index columns, const Operation& operation) {
+  constexpr Eigen::Index block = 8;
+  assert(in.rows() == out.rows());
+  Field<Real> from = padded_lines<Real>(block, in.rows());
+  Field<Real> to = padded_lines<Real>(block, in.rows());
   for (Eigen::Index first = 0; first < columns; first += block) {
     const Eigen::Index width = std::min(block, columns - first);
-    lines.leftCols(width) = field.middleCols(first, width);
-    for (Eigen::Index column = 0; column < width; ++column) {
-      operation(lines.col(column).data(), results.col(column).data(), first + column);
+    transpose(&in(read.first, first), in.cols(), &from(0, read.first), from.cols(), read.size(),
+              width);
+    for (Eigen::Index line = 0; line < width; ++line) {
+      operation(&from(line, 0), &to(line, 0), first + line);
     }
-    field.middleCols(first, width) = results.leftCols(width);
+    transpose(&to(0, written.first), to.cols(), &out(written.first, first), out.cols(), width,
+              written.size());
   }
+}
+
+/// The same for all rows, in place.
+template <class Real, class Operation>
+void for_each_column(Field<Real>& field, Eigen::Index columns, const Operation& operation) {
+  const RowRange all{0, field.rows()};
+  for_each_column(field, all, field, all, columns, operation);
 }
 
 /// The smallest even number of samples >= `minimum` with no prime factor above 7, where FFTW is

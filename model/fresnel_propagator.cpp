@@ -29,28 +29,34 @@ void FresnelPropagator<Real>::propagate(Field<Real>& field, double distance) con
   using Sample = std::complex<Real>;
   for_each_row(field, samples(), 0, samples(),
                [&](const Sample* in, Sample* out) { transform_.forward(in, out); });
-  propagate_transformed_rows(field, distance);
+  const RowRange all{0, samples()};
+  propagate_transformed_rows(field, transfer(distance), all, all);
   for_each_row(field, samples(), 0, samples(),
                [&](const Sample* in, Sample* out) { transform_.backward(in, out); });
   field *= Real(1) / static_cast<Real>(samples());
 }
 
 template <class Real>
+LineFactors<Real> FresnelPropagator<Real>::transfer(double distance) const {
+  return LineFactors<Real>(fresnel_transfer_function(samples(), pitch_, wavelength_, distance));
+}
+
+template <class Real>
 void FresnelPropagator<Real>::propagate_transformed_rows(Field<Real>& field,
-                                                         double distance) const {
+                                                         const LineFactors<Real>& transfer,
+                                                         RowRange lit, RowRange wanted) const {
   assert(field.rows() == samples() && field.cols() >= samples());
-  assert(distance != 0.0);
+  assert(transfer.length() == samples());
   using Sample = std::complex<Real>;
-  const Eigen::ArrayX<Sample> transfer =
-      fresnel_transfer_function(samples(), pitch_, wavelength_, distance).template cast<Sample>();
   const Real column_norm = Real(1) / static_cast<Real>(samples());
   Eigen::ArrayX<Sample> spectrum(samples());
-  for_each_column(field, samples(), [&](const Sample* in, Sample* out, Eigen::Index column) {
-    transform_.forward(in, spectrum.data());
-    multiply_line(spectrum.data(), transfer.data(), column_norm * transfer[column], spectrum.data(),
-                  samples());
-    transform_.backward(spectrum.data(), out);
-  });
+  for_each_column(field, lit, field, wanted, samples(),
+                  [&](const Sample* in, Sample* out, Eigen::Index column) {
+                    transform_.forward(in, spectrum.data());
+                    multiply_line(spectrum.data(), transfer, column_norm * transfer[column],
+                                  spectrum.data());
+                    transform_.backward(spectrum.data(), out);
+                  });
 }
 
 template class FresnelPropagator<float>;

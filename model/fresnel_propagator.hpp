@@ -36,14 +36,20 @@ class FresnelPropagator {
   /// The transform of the grid's rows.
   const LineTransform<Real>& row_transform() const { return transform_; }
 
-  /// Propagates `field` (samples x samples, or a padded_field) by `distance` (m, signed) in place.
+  /// Propagates `field` (samples x samples, or padded_lines) by `distance` (m, signed) in place.
   /// A distance of 0 is exactly the identity.
   void propagate(Field<Real>& field, double distance) const;
 
-  /// The same on a field whose rows are Fourier transforms (row_transform().forward), before and
-  /// after: for callers that have work to do on the rows while they are in cache.
-  /// @pre distance is not 0
-  void propagate_transformed_rows(Field<Real>& field, double distance) const;
+  /// What propagate_transformed_rows needs of a distance (m, signed).
+  LineFactors<Real> transfer(double distance) const;
+
+  /// The same as propagate on a field whose rows are Fourier transforms, before and after
+  /// (row_transform().forward): for callers that have work to do on the rows while they are in
+  /// cache.
+  /// @param lit     the rows that hold light; the others count as dark, whatever they hold
+  /// @param wanted  the rows to make; the others keep what they hold
+  void propagate_transformed_rows(Field<Real>& field, const LineFactors<Real>& transfer,
+                                  RowRange lit, RowRange wanted) const;
 
  private:
   LineTransform<Real> transform_;

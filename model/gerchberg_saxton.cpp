@@ -42,7 +42,16 @@ GerchbergSaxton<Real>::GerchbergSaxton(const Telescope& telescope, const SensorD
       pitch_(telescope.diameter / design.pupil_samples()),
       mask_(pupil_mask(design.pupil_samples(), telescope.central_obscuration)),
       propagator_(design.grid_width(), pitch_, telescope.wavelength),
-      unwrapper_(mask_, design.reconstruction.unwrapping) {}
+      unwrapper_(mask_, design.reconstruction.unwrapping) {
+  double position = 0.0;
+  const auto hop_to = [&](double next) {
+    hops_.emplace_back();
+    if (next != position) hops_.back() = propagator_.transfer(next - position);
+    position = next;
+  };
+  for (const double plane : design.planes) hop_to(plane);
+  hop_to(0.0);
+}
 
 template <class Real>
 Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>> images) const {
@@ -54,44 +63,40 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
     amplitudes.push_back(image.max(0.0).sqrt().template cast<Real>());
   }
 
-  const int width = propagator_.samples();
-  const auto samples = mask_.rows();
-  const Eigen::Index border = (width - samples) / 2;
+  const RowRange all_rows{0, propagator_.samples()};
+  const RowRange pupil_rows = middle_rows(mask_.rows());
+  const RowRange plane_rows =
+      options.outside == OutsideDetector::zero
+          ? middle_rows(Eigen::Index(design_.detector.width()) * options.oversampling)
+          : all_rows;
   const double length_per_radian = wavelength_ / (2.0 * std::numbers::pi);
-  using Sample = std::complex<Real>;
 
   Reconstruction result;
   result.pupil_field = first_estimate(images);
   LoopChange loop_change(options.stopping, mask_, unwrapper_, result.pupil_field);
   // Between the planes the field's rows are Fourier transforms: each plane transforms a row back,
   // replaces its amplitudes and transforms it again while it is in cache.
-  Field<Real> field = padded_field<Real>(width);
+  Field<Real> field = padded_lines<Real>(propagator_.samples(), propagator_.samples());
   while (!result.converged && result.loops < options.max_loops) {
     ++result.loops;
-    field.setZero();
-    field.block(border, border, samples, samples) = result.pupil_field.template cast<Sample>();
-    for_each_row(field, width, border, border + samples, [&](const Sample* in, Sample* out) {
-      propagator_.row_transform().forward(in, out);
-    });
-    double position = 0.0;
-    const auto hop_to = [&](double next) {
-      if (next == position) return;
-      propagator_.propagate_transformed_rows(field, next - position);
+    RowRange lit = pupil_rows;
+    if (!hops_.front()) {  // no hop overwrites what the loop before left
+      field.setZero();
+      lit = all_rows;
+    }
+    put_pupil(result.pupil_field, field);
+    const auto hop = [&](std::size_t index, RowRange wanted) {
+      if (!hops_[index]) return;
+      propagator_.propagate_transformed_rows(field, *hops_[index], lit, wanted);
+      lit = wanted;
       result.fft_count += 2;
-      position = next;
     };
     for (std::size_t plane = 0; plane < amplitudes.size(); ++plane) {
-      hop_to(design_.planes[plane]);
+      hop(plane, plane_rows);
       measure(field, amplitudes[plane], static_cast<Real>(options.relaxation(result.loops)));
     }
-    hop_to(0.0);
-    for_each_row(field, width, border, border + samples, [&](const Sample* in, Sample* out) {
-      propagator_.row_transform().backward(in, out);
-    });
-    result.pupil_field = mask_.select(
-        field.block(border, border, samples, samples).template cast<std::complex<double>>() /
-            double(width),
-        std::complex<double>(0.0));
+    hop(amplitudes.size(), pupil_rows);
+    result.pupil_field = get_pupil(field);
 
     result.changes.push_back(loop_change.update(result.pupil_field) * length_per_radian);
     result.converged = result.changes.back() < options.tolerance;
@@ -118,30 +123,55 @@ Field<double> GerchbergSaxton<Real>::first_estimate(std::span<const Image<double
 }
 
 template <class Real>
+RowRange GerchbergSaxton<Real>::middle_rows(Eigen::Index rows) const {
+  const Eigen::Index border = (propagator_.samples() - rows) / 2;
+  return {border, border + rows};
+}
+
+template <class Real>
+void GerchbergSaxton<Real>::put_pupil(const Field<double>& pupil, Field<Real>& field) const {
+  const RowRange rows = middle_rows(pupil.rows());
+  using Line = Eigen::ArrayX<std::complex<Real>>;
+  Line line = Line::Zero(propagator_.samples());
+  for (Eigen::Index row = 0; row < rows.size(); ++row) {
+    line.segment(rows.first, rows.size()) = pupil.row(row).template cast<std::complex<Real>>();
+    propagator_.row_transform().forward(line.data(), field.row(rows.first + row).data());
+  }
+}
+
+template <class Real>
+Field<double> GerchbergSaxton<Real>::get_pupil(const Field<Real>& field) const {
+  const RowRange rows = middle_rows(mask_.rows());
+  Field<double> pupil(rows.size(), rows.size());
+  Eigen::ArrayX<std::complex<Real>> line(propagator_.samples());
+  for (Eigen::Index row = 0; row < rows.size(); ++row) {
+    propagator_.row_transform().backward(field.row(rows.first + row).data(), line.data());
+    pupil.row(row) = line.segment(rows.first, rows.size()).template cast<std::complex<double>>();
+  }
+  return mask_.select(pupil / double(propagator_.samples()), std::complex<double>(0.0));
+}
+
+template <class Real>
 void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& amplitude,
                                     Real relaxation) const {
   const int width = propagator_.samples();
   const int oversampling = design_.reconstruction.oversampling;
   const auto pixels = static_cast<int>(amplitude.rows());
-  const int border = (width - pixels * oversampling) / 2;
-  const bool dark_outside = design_.reconstruction.outside == OutsideDetector::zero;
+  const Eigen::Index border = middle_rows(Eigen::Index(pixels) * oversampling).first;
   const LineTransform<Real>& transform = propagator_.row_transform();
 
   const Real row_norm = Real(1) / static_cast<Real>(width);
-  const Real outside_gain = dark_outside ? Real(0) : row_norm;
-  if (dark_outside) {
-    field.topRows(border).setZero();
-    field.bottomRows(border).setZero();
-  }
-  Field<Real> rows(oversampling, width);
+  const Real outside_gain =
+      design_.reconstruction.outside == OutsideDetector::zero ? Real(0) : row_norm;
+  Field<Real> rows = padded_lines<Real>(oversampling, width);
   Eigen::ArrayX<Real> scratch(pixels);
   for (int pixel_row = 0; pixel_row < pixels; ++pixel_row) {
-    const int first = border + pixel_row * oversampling;
+    const Eigen::Index first = border + Eigen::Index(pixel_row) * oversampling;
     for (int row = 0; row < oversampling; ++row) {
       transform.backward(field.row(first + row).data(), rows.row(row).data());
     }
     rows.leftCols(border) *= outside_gain;
-    rows.rightCols(border) *= outside_gain;
+    rows.middleCols(width - border, border) *= outside_gain;
     replace_amplitudes(rows.data() + border, rows.cols(), oversampling, row_norm,
                        amplitude.row(pixel_row).data(), relaxation, scratch.data(), pixels);
     for (int row = 0; row < oversampling; ++row) {

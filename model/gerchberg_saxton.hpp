@@ -7,6 +7,7 @@
 #include "model/sensor_design.hpp"
 #include "model/telescope.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,12 @@ class GerchbergSaxton {
 
  private:
   Field<double> first_estimate(std::span<const Image<double>> images) const;
+  /// The grid's middle rows, where a square of that many samples stands.
+  RowRange middle_rows(Eigen::Index rows) const;
+  /// Writes the transforms of the pupil's rows.
+  void put_pupil(const Field<double>& pupil, Field<Real>& field) const;
+  /// The pupil from the transforms of its rows, 0 outside the aperture.
+  Field<double> get_pupil(const Field<Real>& field) const;
   /// The amplitude step at one plane, on a field whose rows are Fourier transforms.
   void measure(Field<Real>& field, const Image<Real>& amplitude, Real relaxation) const;
 
@@ -53,6 +60,8 @@ class GerchbergSaxton {
   double pitch_;
   PupilMask mask_;
   FresnelPropagator<Real> propagator_;
+  std::vector<std::optional<LineFactors<Real>>> hops_;  ///< to each plane and back to the pupil;
+                                                        ///< none where the planes coincide
   PhaseUnwrapper unwrapper_;
 };
 

@@ -17,31 +17,137 @@
 namespace nlcwfs {
 namespace {
 
-// Complex numbers as pairs of reals: std::complex's product also handles infinities, which keeps
-// compilers from vectorizing it.
+/// A vector register that every processor has: two complex numbers in single precision, one in
+/// double. Wider ones are no faster on lines that are aligned to 16 bytes.
+template <class Real>
+using Lanes [[gnu::vector_size(16), gnu::may_alias]] = Real;
+
+NLCWFS_INLINE Lanes<float> swap_parts(const Lanes<float>& z) {
+  return Lanes<float>{z[1], z[0], z[3], z[2]};
+}
+NLCWFS_INLINE Lanes<double> swap_parts(const Lanes<double>& z) { return Lanes<double>{z[1], z[0]}; }
+
+/// A product of complex numbers: std::complex's also handles infinities, which keeps compilers from
+/// vectorizing it.
+/// @param real       re re ... of the other factors
+/// @param imaginary  -im im ... of the other factors
+template <class Real>
+NLCWFS_INLINE Lanes<Real> product(const Lanes<Real>& z, const Lanes<Real>& real,
+                                  const Lanes<Real>& imaginary) {
+  return z * real + swap_parts(z) * imaginary;
+}
 
 template <class Real>
-NLCWFS_INLINE void multiply(const std::complex<Real>* in, const std::complex<Real>* factors,
-                            std::complex<Real> factor, std::complex<Real>* out, int length) {
+NLCWFS_INLINE void multiply(const std::complex<Real>* in, const LineFactors<Real>& factors,
+                            std::complex<Real> factor, std::complex<Real>* out) {
+  using Vector = Lanes<Real>;
+  constexpr int reals = sizeof(Vector) / sizeof(Real);
+  Vector factor_real;
+  Vector factor_imaginary;
+  for (int i = 0; i < reals; ++i) {
+    factor_real[i] = factor.real();
+    factor_imaginary[i] = i % 2 == 0 ? -factor.imag() : factor.imag();
+  }
   const auto* values = reinterpret_cast<const Real*>(in);
-  const auto* multipliers = reinterpret_cast<const Real*>(factors);
   auto* products = reinterpret_cast<Real*>(out);
-  const Real factor_re = factor.real();
-  const Real factor_im = factor.imag();
-  for (int i = 0; i < 2 * length; i += 2) {
-    const Real re = multipliers[i] * factor_re - multipliers[i + 1] * factor_im;
-    const Real im = multipliers[i] * factor_im + multipliers[i + 1] * factor_re;
-    const Real value_re = values[i];
-    const Real value_im = values[i + 1];
-    products[i] = value_re * re - value_im * im;
-    products[i + 1] = value_re * im + value_im * re;
+  const int length = 2 * factors.length();
+  int i = 0;
+  for (; i + reals <= length; i += reals) {
+    const auto value = *reinterpret_cast<const Vector*>(values + i);
+    const Vector scaled = product<Real>(value, factor_real, factor_imaginary);
+    *reinterpret_cast<Vector*>(products + i) =
+        product<Real>(scaled, *reinterpret_cast<const Vector*>(factors.real() + i),
+                      *reinterpret_cast<const Vector*>(factors.imaginary() + i));
+  }
+  for (; i < length; i += 2) {  // the last of an odd number in single precision
+    const Real re = values[i] * factor.real() - values[i + 1] * factor.imag();
+    const Real im = values[i + 1] * factor.real() + values[i] * factor.imag();
+    products[i] = re * factors.real()[i] + im * factors.imaginary()[i];
+    products[i + 1] = im * factors.real()[i + 1] + re * factors.imaginary()[i + 1];
   }
 }
 
-/// Inlined with a constant `samples`, its inner loops vanish.
+/// A complex number that moves as a whole.
 template <class Real>
-NLCWFS_INLINE void replace(std::complex<Real>* field, std::ptrdiff_t stride, int samples, Real gain,
-                           const Real* amplitude, Real relaxation, Real* scale, int pixels) {
+struct Whole;
+template <>
+struct Whole<float> {
+  using Value [[gnu::may_alias]] = double;
+};
+template <>
+struct Whole<double> {
+  using Value = Lanes<double>;
+};
+
+/// By square tiles: their rows and columns are short runs of neighbouring values, which move
+/// through vector registers.
+template <class Real>
+NLCWFS_INLINE void transpose_tiles(const std::complex<Real>* in, std::ptrdiff_t in_stride,
+                                   std::complex<Real>* out, std::ptrdiff_t out_stride,
+                                   std::ptrdiff_t rows, std::ptrdiff_t columns) {
+  constexpr std::ptrdiff_t side = 4;
+  using Value = typename Whole<Real>::Value;
+  const std::ptrdiff_t whole_rows = rows - rows % side;
+  const std::ptrdiff_t whole_columns = columns - columns % side;
+  for (std::ptrdiff_t row = 0; row < whole_rows; row += side) {
+    for (std::ptrdiff_t column = 0; column < whole_columns; column += side) {
+      const auto* from = reinterpret_cast<const Value*>(in + row * in_stride + column);
+      auto* to = reinterpret_cast<Value*>(out + column * out_stride + row);
+      Value tile[side][side];
+      for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) tile[j][i] = from[i * in_stride + j];
+      }
+      for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) to[i * out_stride + j] = tile[i][j];
+      }
+    }
+    for (std::ptrdiff_t column = whole_columns; column < columns; ++column) {
+      for (int i = 0; i < side; ++i) {
+        out[column * out_stride + row + i] = in[(row + i) * in_stride + column];
+      }
+    }
+  }
+  for (std::ptrdiff_t row = whole_rows; row < rows; ++row) {
+    for (std::ptrdiff_t column = 0; column < columns; ++column) {
+      out[column * out_stride + row] = in[row * in_stride + column];
+    }
+  }
+}
+
+/// The factor of the field in a pixel whose mean intensity, before `gain`, is `intensity`.
+template <class Real>
+NLCWFS_INLINE Real amplitude_scale(Real intensity, Real gain, Real amplitude, Real relaxation) {
+  // Else rounding errors would choose the phase of all the light that is measured there.
+  constexpr Real dark = Real(64) * std::numeric_limits<Real>::epsilon();
+  const Real estimated = gain * std::sqrt(intensity);
+  const Real wanted = amplitude + relaxation * (amplitude - estimated);
+  return estimated > dark ? gain * wanted / estimated : Real(0);
+}
+
+/// Each sample is a pixel.
+template <class Real>
+NLCWFS_INLINE void replace_samples(Real* values, Real gain, const Real* amplitude, Real relaxation,
+                                   Real* scale, int pixels) {
+  for (int pixel = 0; pixel < pixels; ++pixel) {
+    const Real re = values[2 * pixel];
+    const Real im = values[2 * pixel + 1];
+    scale[pixel] = re * re + im * im;
+  }
+  // Loops of their own, in which the square roots and divisions fill vector registers.
+  for (int pixel = 0; pixel < pixels; ++pixel) {
+    scale[pixel] = amplitude_scale(scale[pixel], gain, amplitude[pixel], relaxation);
+  }
+  for (int pixel = 0; pixel < pixels; ++pixel) {
+    values[2 * pixel] *= scale[pixel];
+    values[2 * pixel + 1] *= scale[pixel];
+  }
+}
+
+/// Each pixel is samples x samples samples.
+template <class Real>
+NLCWFS_INLINE void replace_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int samples,
+                                  Real gain, const Real* amplitude, Real relaxation, Real* scale,
+                                  int pixels) {
   for (int pixel = 0; pixel < pixels; ++pixel) scale[pixel] = Real(0);
   for (int row = 0; row < samples; ++row) {
     const auto* values = reinterpret_cast<const Real*>(field + row * stride);
@@ -54,12 +160,8 @@ NLCWFS_INLINE void replace(std::complex<Real>* field, std::ptrdiff_t stride, int
     }
   }
   const Real per_sample = Real(1) / static_cast<Real>(samples * samples);
-  // Else rounding errors would choose the phase of all the light that is measured there.
-  const Real dark = Real(64) * std::numeric_limits<Real>::epsilon();
   for (int pixel = 0; pixel < pixels; ++pixel) {
-    const Real estimated = gain * std::sqrt(scale[pixel] * per_sample);
-    const Real wanted = amplitude[pixel] + relaxation * (amplitude[pixel] - estimated);
-    scale[pixel] = estimated > dark ? gain * wanted / estimated : Real(0);
+    scale[pixel] = amplitude_scale(scale[pixel] * per_sample, gain, amplitude[pixel], relaxation);
   }
   for (int row = 0; row < samples; ++row) {
     auto* values = reinterpret_cast<Real*>(field + row * stride);
@@ -76,32 +178,55 @@ NLCWFS_INLINE void replace_in_pixels(std::complex<Real>* field, std::ptrdiff_t s
                                      Real gain, const Real* amplitude, Real relaxation,
                                      Real* scratch, int pixels) {
   if (samples == 1) {
-    replace(field, stride, 1, gain, amplitude, relaxation, scratch, pixels);
+    replace_samples(reinterpret_cast<Real*>(field), gain, amplitude, relaxation, scratch, pixels);
   } else {
-    replace(field, stride, samples, gain, amplitude, relaxation, scratch, pixels);
+    replace_pixels(field, stride, samples, gain, amplitude, relaxation, scratch, pixels);
   }
 }
 
 }  // namespace
 
+template <class Real>
+LineFactors<Real>::LineFactors(const Eigen::ArrayXcd& factors)
+    : real_(2 * factors.size()), imaginary_(2 * factors.size()) {
+  for (Eigen::Index i = 0; i < factors.size(); ++i) {
+    real_[2 * i] = real_[2 * i + 1] = static_cast<Real>(factors[i].real());
+    imaginary_[2 * i + 1] = static_cast<Real>(factors[i].imag());
+    imaginary_[2 * i] = -imaginary_[2 * i + 1];
+  }
+}
+
+template class LineFactors<float>;
+template class LineFactors<double>;
+
 NLCWFS_MULTIVERSION void multiply_line(const std::complex<double>* in,
-                                       const std::complex<double>* factors,
-                                       std::complex<double> factor, std::complex<double>* out,
-                                       int length) {
-  multiply(in, factors, factor, out, length);
+                                       const LineFactors<double>& factors,
+                                       std::complex<double> factor, std::complex<double>* out) {
+  multiply(in, factors, factor, out);
 }
 
 NLCWFS_MULTIVERSION void multiply_line(const std::complex<float>* in,
-                                       const std::complex<float>* factors,
-                                       std::complex<float> factor, std::complex<float>* out,
-                                       int length) {
-  multiply(in, factors, factor, out, length);
+                                       const LineFactors<float>& factors,
+                                       std::complex<float> factor, std::complex<float>* out) {
+  multiply(in, factors, factor, out);
+}
+
+NLCWFS_MULTIVERSION void transpose(const std::complex<double>* in, std::ptrdiff_t in_stride,
+                                   std::complex<double>* out, std::ptrdiff_t out_stride,
+                                   std::ptrdiff_t rows, std::ptrdiff_t columns) {
+  transpose_tiles(in, in_stride, out, out_stride, rows, columns);
 }
 
 NLCWFS_MULTIVERSION void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride,
                                             int samples, double gain, const double* amplitude,
                                             double relaxation, double* scratch, int pixels) {
   replace_in_pixels(field, stride, samples, gain, amplitude, relaxation, scratch, pixels);
+}
+
+NLCWFS_MULTIVERSION void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride,
+                                   std::complex<float>* out, std::ptrdiff_t out_stride,
+                                   std::ptrdiff_t rows, std::ptrdiff_t columns) {
+  transpose_tiles(in, in_stride, out, out_stride, rows, columns);
 }
 
 NLCWFS_MULTIVERSION void replace_amplitudes(std::complex<float>* field, std::ptrdiff_t stride,

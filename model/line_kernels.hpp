@@ -1,17 +1,47 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
+
+#include <Eigen/Core>
 
 namespace nlcwfs {
 
 // The arithmetic of the innermost loops, between the Fourier transforms. Compiled for several
 // instruction sets, of which the running processor's best is chosen when the program is loaded.
 
-/// out[i] = in[i] * factors[i] * factor for i < length; out may be in.
-void multiply_line(const std::complex<double>* in, const std::complex<double>* factors,
-                   std::complex<double> factor, std::complex<double>* out, int length);
-void multiply_line(const std::complex<float>* in, const std::complex<float>* factors,
-                   std::complex<float> factor, std::complex<float>* out, int length);
+/// Complex factors of the values of a line, laid out for multiply_line.
+template <class Real>
+class LineFactors {
+ public:
+  explicit LineFactors(const Eigen::ArrayXcd& factors);
+
+  int length() const { return static_cast<int>(real_.size()) / 2; }
+  std::complex<Real> operator[](Eigen::Index i) const {
+    return {real_[2 * i], imaginary_[2 * i + 1]};
+  }
+
+  /// Each factor's real part twice: re re ...
+  const Real* real() const { return real_.data(); }
+  /// Each factor's imaginary part twice, once negated: -im im ...
+  const Real* imaginary() const { return imaginary_.data(); }
+
+ private:
+  Eigen::ArrayX<Real> real_;
+  Eigen::ArrayX<Real> imaginary_;
+};
+
+/// out[i] = in[i] * factors[i] * factor for i < factors.length(); out may be in.
+void multiply_line(const std::complex<double>* in, const LineFactors<double>& factors,
+                   std::complex<double> factor, std::complex<double>* out);
+void multiply_line(const std::complex<float>* in, const LineFactors<float>& factors,
+                   std::complex<float> factor, std::complex<float>* out);
+
+/// out[column * out_stride + row] = in[row * in_stride + column]; strides in values.
+void transpose(const std::complex<double>* in, std::ptrdiff_t in_stride, std::complex<double>* out,
+               std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns);
+void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::complex<float>* out,
+               std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns);
 
 /// The amplitude step for one row of detector pixels, each of samples x samples field samples.
 /// With A a pixel's measured amplitude and a the field's there (the root of its mean intensity),

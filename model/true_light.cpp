@@ -23,7 +23,7 @@ class ExtendedLight final : public TrueLight {
     const Field<double> spectrum = propagator_.spectrum(pupil);
     std::vector<Field<double>> fields;
     fields.reserve(transfer_functions_.size());
-    for (const Eigen::ArrayXcd& transfer : transfer_functions_) {
+    for (const LineFactors<double>& transfer : transfer_functions_) {
       fields.push_back(propagator_.field(spectrum, transfer));
     }
     return fields;
@@ -31,7 +31,7 @@ class ExtendedLight final : public TrueLight {
 
  private:
   WrapFreePropagator propagator_;
-  std::vector<Eigen::ArrayXcd> transfer_functions_;
+  std::vector<LineFactors<double>> transfer_functions_;
 };
 
 class MatchedLight final : public TrueLight {

@@ -32,7 +32,7 @@ double WrapFreePropagator::farthest_distance() const {
   return (farthest_reach - transform_.length()) * 2.0 * pitch_ * pitch_ / wavelength_;
 }
 
-Eigen::ArrayXcd WrapFreePropagator::transfer_function(double distance) const {
+LineFactors<double> WrapFreePropagator::transfer_function(double distance) const {
   const int length = transform_.length();
   assert(std::abs(distance) <= farthest_distance());
   // The kernel's tails beyond the reach of the band limit alternate in sign and fall with the
@@ -53,34 +53,35 @@ Eigen::ArrayXcd WrapFreePropagator::transfer_function(double distance) const {
   }
   Eigen::ArrayXcd transfer(length);
   transform_.forward(wanted.data(), transfer.data());
-  return transfer / double(length);
+  return LineFactors<double>(transfer / double(length));
 }
 
 Field<double> WrapFreePropagator::spectrum(const Field<double>& pupil) const {
   assert(pupil.rows() == pupil_samples_ && pupil.cols() == pupil_samples_);
-  Field<double> spectrum = padded_field<double>(transform_.length());
+  const int length = transform_.length();
+  Field<double> spectrum = padded_lines<double>(length, length);
   spectrum.topLeftCorner(pupil_samples_, pupil_samples_) = pupil;
   using Sample = std::complex<double>;
-  const int length = transform_.length();
   for_each_row(spectrum, length, 0, pupil_samples_,
                [&](const Sample* in, Sample* out) { transform_.forward(in, out); });
-  for_each_column(spectrum, length, [&](const Sample* in, Sample* out, Eigen::Index) {
-    transform_.forward(in, out);
-  });
+  for_each_column(
+      spectrum, {0, pupil_samples_}, spectrum, {0, length}, length,
+      [&](const Sample* in, Sample* out, Eigen::Index) { transform_.forward(in, out); });
   return spectrum;
 }
 
 Field<double> WrapFreePropagator::field(const Field<double>& spectrum,
-                                        const Eigen::ArrayXcd& transfer) const {
-  assert(spectrum.rows() == transform_.length() && transfer.size() == transform_.length());
-  using Sample = std::complex<double>;
+                                        const LineFactors<double>& transfer) const {
   const int length = transform_.length();
-  Field<double> field = spectrum;
+  assert(spectrum.rows() == length && transfer.length() == length);
+  using Sample = std::complex<double>;
+  Field<double> field = padded_lines<double>(length, length);
   Eigen::ArrayXcd filtered(length);
-  for_each_column(field, length, [&](const Sample* in, Sample* out, Eigen::Index column) {
-    multiply_line(in, transfer.data(), transfer[column], filtered.data(), length);
-    transform_.backward(filtered.data(), out);
-  });
+  for_each_column(spectrum, {0, length}, field, {0, window_samples_}, length,
+                  [&](const Sample* in, Sample* out, Eigen::Index column) {
+                    multiply_line(in, transfer, transfer[column], filtered.data());
+                    transform_.backward(filtered.data(), out);
+                  });
   for_each_row(field, length, 0, window_samples_,
                [&](const Sample* in, Sample* out) { transform_.backward(in, out); });
   return field.topLeftCorner(window_samples_, window_samples_);

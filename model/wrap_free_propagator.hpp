@@ -34,13 +34,13 @@ class WrapFreePropagator {
 
   /// The kernel's discrete transform along one axis for a plane at `distance` (m, signed).
   /// @pre |distance| <= farthest_distance()
-  Eigen::ArrayXcd transfer_function(double distance) const;
+  LineFactors<double> transfer_function(double distance) const;
 
   /// The transform of a pupil field (pupil_samples x pupil_samples), shared by all planes.
   Field<double> spectrum(const Field<double>& pupil) const;
 
   /// The field in the window (window_samples x window_samples) of one plane.
-  Field<double> field(const Field<double>& spectrum, const Eigen::ArrayXcd& transfer) const;
+  Field<double> field(const Field<double>& spectrum, const LineFactors<double>& transfer) const;
 
  private:
   int pupil_samples_;

@@ -86,7 +86,7 @@ TYPED_TEST(LineTransformPrecision, CopiesShareThePlan) {
 }
 
 TEST(FourierTransform, RowsAreReplacedWithinTheirRange) {
-  Field<double> field = padded_field<double>(6);
+  Field<double> field = padded_lines<double>(6, 6);
   field.leftCols(6).setConstant(2.0);
   for_each_row(field, 6, 2, 5, [](const auto* in, auto* out) {
     for (int x = 0; x < 6; ++x) out[x] = in[5 - x] + double(x);
@@ -117,6 +117,21 @@ TEST(FourierTransform, EveryColumnIsReplacedOnceAlsoBeyondABlock) {
       }
     }
   }
+}
+
+TEST(FourierTransform, ColumnsReadDarkRowsAsZeroAndWriteTheWantedRowsOnly) {
+  const Field<double> in = Field<double>::Constant(6, 19, 2.0);
+  Field<double> out = Field<double>::Constant(6, 19, 7.0);
+  for_each_column(in, {1, 3}, out, {2, 6}, 18, [](const auto* from, auto* to, Eigen::Index) {
+    for (int row = 0; row < 6; ++row) to[row] = from[row] + double(row);
+  });
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 19; ++column) {
+      const double made = row + (row == 1 || row == 2 ? 2.0 : 0.0);
+      EXPECT_EQ(out(row, column), row >= 2 && column < 18 ? made : 7.0) << row << ", " << column;
+    }
+  }
+  EXPECT_TRUE((in == 2.0).all());
 }
 
 TEST(FourierTransform, FastLengthsAreTheNextEvenNumberWithSmallPrimeFactors) {

@@ -34,21 +34,45 @@ TYPED_TEST_SUITE(LineKernels, Precisions);
 const std::vector<int> lengths{0, 1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33, 100, 101};
 
 TYPED_TEST(LineKernels, MultiplyIsComplexArithmetic) {
+  using Sample = std::complex<TypeParam>;
   for (const int length : lengths) {
     const auto in = this->random_line(length);
     const auto factors = this->random_line(length);
-    const std::complex<TypeParam> factor(this->random(), this->random());
-    const Eigen::ArrayX<std::complex<TypeParam>> expected = in * factors * factor;
+    const Sample factor(this->random(), this->random());
+    const Eigen::ArrayX<Sample> expected = in * factors * factor;
+    const LineFactors<TypeParam> laid_out(factors.template cast<std::complex<double>>());
+    ASSERT_EQ(laid_out.length(), length);
     // One value more, which must stay.
-    Eigen::ArrayX<std::complex<TypeParam>> out(length + 1);
+    Eigen::ArrayX<Sample> out(length + 1);
     out[length] = TypeParam(9);
-    multiply_line(in.data(), factors.data(), factor, out.data(), length);
+    multiply_line(in.data(), laid_out, factor, out.data());
     EXPECT_EQ(out[length], TypeParam(9));
     auto in_place = in;
-    multiply_line(in_place.data(), factors.data(), factor, in_place.data(), length);
+    multiply_line(in_place.data(), laid_out, factor, in_place.data());
     for (int i = 0; i < length; ++i) {
+      EXPECT_EQ(laid_out[i], factors[i]);
       EXPECT_LT(std::abs(out[i] - expected[i]), this->tolerance_) << i << " of " << length;
       EXPECT_EQ(in_place[i], out[i]);
+    }
+  }
+}
+
+TYPED_TEST(LineKernels, TransposeMovesEveryValueOfAnyShapeAndNoOther) {
+  using Sample = std::complex<TypeParam>;
+  for (const int rows : lengths) {
+    for (const int columns : {0, 1, 3, 4, 5, 8, 16}) {
+      const int in_stride = columns + 2;
+      const int out_stride = rows + 3;
+      const auto in = this->random_line(Eigen::Index(rows) * in_stride);
+      Eigen::ArrayX<Sample> out(Eigen::Index(columns) * out_stride);
+      out.setConstant(TypeParam(9));
+      transpose(in.data(), in_stride, out.data(), out_stride, rows, columns);
+      for (int column = 0; column < columns; ++column) {
+        for (int row = 0; row < out_stride; ++row) {
+          EXPECT_EQ(out[column * out_stride + row],
+                    row < rows ? in[row * in_stride + column] : Sample(TypeParam(9)));
+        }
+      }
     }
   }
 }

@@ -40,7 +40,7 @@ TEST(WrapFreePropagator, IsTheTransposeOfItselfAndConjugateBackwards) {
   // conjugate pupil backwards conjugates it.
   const WrapFreePropagator propagator(32, 96, diameter / 32, wavelength);
   const Field<double> pupil = aberrated_pupil(32);
-  const Eigen::ArrayXcd transfer = propagator.transfer_function(30e3);
+  const LineFactors<double> transfer = propagator.transfer_function(30e3);
   const Field<double> field = propagator.field(propagator.spectrum(pupil), transfer);
   const Field<double> transposed =
       propagator.field(propagator.spectrum(pupil.transpose()), transfer);
