@@ -11,10 +11,11 @@ Eigen::ArrayXcd fresnel_transfer_function(int samples, double pitch, double wave
                                           double distance) {
   Eigen::ArrayXcd transfer(samples);
   const double frequency_step = 1.0 / (samples * pitch);
-  for (int index = 0; index < samples; ++index) {
-    const double frequency = frequency_step * (index < (samples + 1) / 2 ? index : index - samples);
+  for (int index = 0; index <= samples / 2; ++index) {
+    const double frequency = frequency_step * index;
     transfer[index] =
         std::polar(1.0, -std::numbers::pi * wavelength * distance * frequency * frequency);
+    if (index > 0) transfer[samples - index] = transfer[index];  // at -frequency
   }
   return transfer;
 }

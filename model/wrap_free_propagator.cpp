@@ -7,6 +7,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace nlcwfs {
 namespace {
@@ -35,9 +36,8 @@ double WrapFreePropagator::farthest_distance() const {
 LineFactors<double> WrapFreePropagator::transfer_function(double distance) const {
   const int length = transform_.length();
   assert(std::abs(distance) <= farthest_distance());
-  // The kernel's tails beyond the reach of the band limit alternate in sign and fall with the
-  // square of the distance, so that a period of many reaches leaves nothing of them.
-  const double reach = wavelength_ * std::abs(distance) / (2.0 * pitch_ * pitch_) + length;
+  const double chirp = wavelength_ * distance / (2.0 * pitch_ * pitch_);
+  const double reach = std::abs(chirp) + length;
   const auto period = static_cast<int>(std::min(
       longest_period, std::bit_ceil(static_cast<unsigned>(std::ceil(period_margin_ * reach)))));
   const Eigen::ArrayXcd spectrum =
@@ -45,11 +45,27 @@ LineFactors<double> WrapFreePropagator::transfer_function(double distance) const
   Eigen::ArrayXcd kernel(period);
   LineTransform<double>(period).backward(spectrum.data(), kernel.data());
 
+  // The transform is the trapezoidal rule for the integral over frequency. These are the first two
+  // terms by which it differs (Euler-Maclaurin, DLMF 2.10.1): the odd derivatives of the integrand
+  // exp(i (-pi lambda z f^2 + 2 pi f x)) at the ends of the band, in units of the frequency step.
+  const double step = 2.0 * std::numbers::pi / period;
+  const double slope = step * chirp;  // of the chirp's phase at the band's end
+  const double curvature = -step * slope / std::numbers::pi;
+  const std::complex<double> end = spectrum[period / 2];
+  const auto integral = [&](int offset) {
+    const double tilt = step * offset;
+    const std::complex<double> first(0.0, slope / 6.0);
+    const std::complex<double> third(curvature * slope / 120.0,
+                                     slope * (3.0 * tilt * tilt + slope * slope) / 360.0);
+    const double sign = offset % 2 == 0 ? 1.0 : -1.0;
+    return kernel[(offset + period) % period] + sign * end * (first + third);
+  };
+
   // Window sample j stands (j - k - shift) pitches from pupil sample k.
   const int shift = (window_samples_ - pupil_samples_) / 2;
   Eigen::ArrayXcd wanted = Eigen::ArrayXcd::Zero(length);
   for (int offset = 1 - pupil_samples_; offset < window_samples_; ++offset) {
-    wanted[(offset + length) % length] = kernel[(offset - shift + period) % period];
+    wanted[(offset + length) % length] = integral(offset - shift);
   }
   Eigen::ArrayXcd transfer(length);
   transform_.forward(wanted.data(), transfer.data());

@@ -13,9 +13,9 @@ namespace nlcwfs {
 /// propagation is a convolution with the band-limited Fresnel kernel
 ///   p(x) = integral over |f| < 1/(2 pitch) of exp(-i pi lambda z f^2) exp(2 pi i f x) df  * pitch,
 /// separable in x and y, which holds at every distance, z = 0 included. The kernel is evaluated by
-/// one long line transform, whose period is so long that its own wrapping is negligible (see
-/// `period_margin`); the convolution of pupil and window then needs only
-/// pupil + window samples per axis to be exact.
+/// one long line transform, the trapezoidal rule for that integral, with the first two corrections
+/// of Euler and Maclaurin; the convolution of pupil and window then needs only pupil + window
+/// samples per axis to be exact.
 class WrapFreePropagator {
  public:
   /// @param pupil_samples   samples across the pupil's square
@@ -26,7 +26,7 @@ class WrapFreePropagator {
   /// @param period_margin   the kernel's period over the largest distance from the axis that
   ///                        band-limited light reaches, lambda |z| / (2 pitch) + half the grid
   WrapFreePropagator(int pupil_samples, int window_samples, double pitch, double wavelength,
-                     double period_margin = 64.0);
+                     double period_margin = 16.0);
 
   /// The farthest plane, m: beyond it the kernel's period would have to be longer than 2^24 samples
   /// (1 GiB of work space) to leave the light room for four times its reach.
