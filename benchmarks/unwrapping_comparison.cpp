@@ -4,13 +4,12 @@
 
 #include "model/detector.hpp"
 #include "model/gerchberg_saxton.hpp"
-#include "model/grid_width.hpp"
 #include "model/phase_unwrapping.hpp"
 #include "model/random_stream.hpp"
 #include "model/statistics.hpp"
+#include "model/true_light.hpp"
 #include "model/turbulence_screen.hpp"
 #include "model/wavefront_metrics.hpp"
-#include "model/wrap_free_propagator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -64,20 +64,6 @@ double share_of_samples_off(const Field<double>& field, const Image<double>& unw
   return 1.0 - double(most->second) / double(mask.count());
 }
 
-/// The noise-free images of a wavefront.
-std::vector<Image<double>> images_of(const PhaseScreen& truth, const PupilMask& truth_mask,
-                                     const WrapFreePropagator& propagator,
-                                     const std::vector<LineFactors<double>>& transfer_functions,
-                                     int samples_per_pixel) {
-  const Field<double> spectrum = propagator.spectrum(pupil_field(truth, truth_mask));
-  std::vector<Image<double>> images;
-  images.reserve(transfer_functions.size());
-  for (const LineFactors<double>& transfer : transfer_functions) {
-    images.push_back(integrate_pixels(propagator.field(spectrum, transfer), samples_per_pixel));
-  }
-  return images;
-}
-
 /// Reconstructs and unwraps all wavefronts.
 std::vector<Outcome> outcomes_of(const Telescope& telescope, const SensorDesign& design,
                                  const std::vector<PhaseScreen>& screens) {
@@ -89,13 +75,8 @@ std::vector<Outcome> outcomes_of(const Telescope& telescope, const SensorDesign&
 
   const PupilMask truth_mask = pupil_mask(truth_samples, telescope.central_obscuration);
   const int samples_per_pixel = truth_samples / design.detector.pupil_pixels;
-  const WrapFreePropagator propagator(truth_samples,
-                                      grid_width(design.detector.window, truth_samples),
-                                      telescope.diameter / truth_samples, telescope.wavelength);
-  std::vector<LineFactors<double>> transfer_functions;
-  for (const double plane : design.planes) {
-    transfer_functions.push_back(propagator.transfer_function(plane));
-  }
+  const std::unique_ptr<const TrueLight> light =
+      make_true_light(TruthModel::extended, telescope, design, truth_samples);
   const double photons_per_unit = design.detector.photons / double(design.planes.size()) *
                                   (samples_per_pixel * samples_per_pixel) /
                                   double(truth_mask.count());
@@ -103,8 +84,7 @@ std::vector<Outcome> outcomes_of(const Telescope& telescope, const SensorDesign&
   std::vector<Outcome> outcomes(screens.size());
   tbb::parallel_for(std::size_t{0}, screens.size(), [&](std::size_t screen) {
     const PhaseScreen& truth = screens[screen];
-    std::vector<Image<double>> images =
-        images_of(truth, truth_mask, propagator, transfer_functions, samples_per_pixel);
+    std::vector<Image<double>> images = light->images(pupil_field(truth, truth_mask));
     if (design.detector.photons > 0.0) {
       for (std::size_t plane = 0; plane < images.size(); ++plane) {
         RandomStream stream = random_stream({seed, screen, plane});

@@ -38,8 +38,18 @@ void Detector::validate() const {
   }
 }
 
-Image<double> integrate_pixels(const Field<double>& field, int samples_per_pixel) {
-  return block_average(field.abs2(), samples_per_pixel);
+Image<double> integrate_pixels(const Eigen::Ref<const Field<double>>& field,
+                               int samples_per_pixel) {
+  const Eigen::Index pixels = field.cols() / samples_per_pixel;
+  Image<double> image = Image<double>::Zero(field.rows() / samples_per_pixel, pixels);
+  for (Eigen::Index row = 0; row < field.rows(); ++row) {
+    const std::complex<double>* sample = field.data() + row * field.outerStride();
+    double* const intensity = &image(row / samples_per_pixel, 0);
+    for (Eigen::Index pixel = 0; pixel < pixels; ++pixel) {
+      for (int i = 0; i < samples_per_pixel; ++i) intensity[pixel] += std::norm(*sample++);
+    }
+  }
+  return image / (samples_per_pixel * samples_per_pixel);
 }
 
 void add_noise(Image<double>& image, double photons_per_unit, double read_noise,

@@ -24,7 +24,7 @@ struct Detector {
 /// @param field              the field over the window, width x samples_per_pixel samples a side
 /// @param samples_per_pixel  samples per pixel and axis
 /// @return width x width, in units of the intensity of the field
-Image<double> integrate_pixels(const Field<double>& field, int samples_per_pixel);
+Image<double> integrate_pixels(const Eigen::Ref<const Field<double>>& field, int samples_per_pixel);
 
 /// Adds photon and read noise to an image, in place.
 /// Each pixel becomes (Poisson(photons) + read_noise x Normal(0, 1)) back in the image's units.

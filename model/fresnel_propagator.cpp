@@ -25,6 +25,24 @@ FresnelPropagator<Real>::FresnelPropagator(int samples, double pitch, double wav
     : transform_(samples), pitch_(pitch), wavelength_(wavelength) {}
 
 template <class Real>
+RowRange FresnelPropagator<Real>::middle_rows(Eigen::Index samples) const {
+  const Eigen::Index border = (transform_.length() - samples) / 2;
+  return {border, border + samples};
+}
+
+template <class Real>
+void FresnelPropagator<Real>::transform_middle_rows(const Field<double>& square,
+                                                    Field<Real>& field) const {
+  const RowRange rows = middle_rows(square.rows());
+  using Line = Eigen::ArrayX<std::complex<Real>>;
+  Line line = Line::Zero(samples());
+  for (Eigen::Index row = 0; row < rows.size(); ++row) {
+    line.segment(rows.first, rows.size()) = square.row(row).template cast<std::complex<Real>>();
+    transform_.forward(line.data(), field.row(rows.first + row).data());
+  }
+}
+
+template <class Real>
 void FresnelPropagator<Real>::propagate(Field<Real>& field, double distance) const {
   if (distance == 0.0) return;
   using Sample = std::complex<Real>;

@@ -36,6 +36,14 @@ class FresnelPropagator {
   /// The transform of the grid's rows.
   const LineTransform<Real>& row_transform() const { return transform_; }
 
+  /// The grid's middle rows, where a square of that many samples a side stands.
+  RowRange middle_rows(Eigen::Index samples) const;
+
+  /// Writes the transforms of the middle rows of a field that is dark but for `square`, in its
+  /// middle; leaves the other rows as they are.
+  /// @param square  at most samples() a side, and of the same parity
+  void transform_middle_rows(const Field<double>& square, Field<Real>& field) const;
+
   /// Propagates `field` (samples x samples, or padded_lines) by `distance` (m, signed) in place.
   /// A distance of 0 is exactly the identity.
   void propagate(Field<Real>& field, double distance) const;

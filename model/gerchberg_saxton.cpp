@@ -42,7 +42,8 @@ GerchbergSaxton<Real>::GerchbergSaxton(const Telescope& telescope, const SensorD
       pitch_(telescope.diameter / design.pupil_samples()),
       mask_(pupil_mask(design.pupil_samples(), telescope.central_obscuration)),
       propagator_(design.grid_width(), pitch_, telescope.wavelength),
-      unwrapper_(mask_, design.reconstruction.unwrapping) {
+      unwrapper_(mask_, design.reconstruction.unwrapping),
+      fields_([samples = propagator_.samples()] { return padded_lines<Real>(samples, samples); }) {
   double position = 0.0;
   const auto hop_to = [&](double next) {
     hops_.emplace_back();
@@ -64,10 +65,10 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
   }
 
   const RowRange all_rows{0, propagator_.samples()};
-  const RowRange pupil_rows = middle_rows(mask_.rows());
+  const RowRange pupil_rows = propagator_.middle_rows(mask_.rows());
   const RowRange plane_rows =
       options.outside == OutsideDetector::zero
-          ? middle_rows(Eigen::Index(design_.detector.width()) * options.oversampling)
+          ? propagator_.middle_rows(Eigen::Index(design_.detector.width()) * options.oversampling)
           : all_rows;
   const double length_per_radian = wavelength_ / (2.0 * std::numbers::pi);
 
@@ -76,7 +77,7 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
   LoopChange loop_change(options.stopping, mask_, unwrapper_, result.pupil_field);
   // Between the planes the field's rows are Fourier transforms: each plane transforms a row back,
   // replaces its amplitudes and transforms it again while it is in cache.
-  Field<Real> field = padded_lines<Real>(propagator_.samples(), propagator_.samples());
+  Field<Real>& field = fields_.local();
   while (!result.converged && result.loops < options.max_loops) {
     ++result.loops;
     RowRange lit = pupil_rows;
@@ -84,7 +85,7 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
       field.setZero();
       lit = all_rows;
     }
-    put_pupil(result.pupil_field, field);
+    propagator_.transform_middle_rows(result.pupil_field, field);
     const auto hop = [&](std::size_t index, RowRange wanted) {
       if (!hops_[index]) return;
       propagator_.propagate_transformed_rows(field, *hops_[index], lit, wanted);
@@ -123,25 +124,8 @@ Field<double> GerchbergSaxton<Real>::first_estimate(std::span<const Image<double
 }
 
 template <class Real>
-RowRange GerchbergSaxton<Real>::middle_rows(Eigen::Index rows) const {
-  const Eigen::Index border = (propagator_.samples() - rows) / 2;
-  return {border, border + rows};
-}
-
-template <class Real>
-void GerchbergSaxton<Real>::put_pupil(const Field<double>& pupil, Field<Real>& field) const {
-  const RowRange rows = middle_rows(pupil.rows());
-  using Line = Eigen::ArrayX<std::complex<Real>>;
-  Line line = Line::Zero(propagator_.samples());
-  for (Eigen::Index row = 0; row < rows.size(); ++row) {
-    line.segment(rows.first, rows.size()) = pupil.row(row).template cast<std::complex<Real>>();
-    propagator_.row_transform().forward(line.data(), field.row(rows.first + row).data());
-  }
-}
-
-template <class Real>
 Field<double> GerchbergSaxton<Real>::get_pupil(const Field<Real>& field) const {
-  const RowRange rows = middle_rows(mask_.rows());
+  const RowRange rows = propagator_.middle_rows(mask_.rows());
   Field<double> pupil(rows.size(), rows.size());
   Eigen::ArrayX<std::complex<Real>> line(propagator_.samples());
   for (Eigen::Index row = 0; row < rows.size(); ++row) {
@@ -157,7 +141,7 @@ void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& ampli
   const int width = propagator_.samples();
   const int oversampling = design_.reconstruction.oversampling;
   const auto pixels = static_cast<int>(amplitude.rows());
-  const Eigen::Index border = middle_rows(Eigen::Index(pixels) * oversampling).first;
+  const Eigen::Index border = propagator_.middle_rows(Eigen::Index(pixels) * oversampling).first;
   const LineTransform<Real>& transform = propagator_.row_transform();
 
   const Real row_norm = Real(1) / static_cast<Real>(width);

@@ -49,7 +49,7 @@ class Experiment {
         unwrapper_(reconstructor_.mask(), design.reconstruction.unwrapping) {}
 
   ScreenPerformance run(const PhaseScreen& truth, std::size_t screen) const {
-    const std::vector<Image<double>> light = integrated_light(pupil_field(truth, truth_mask_));
+    const std::vector<Image<double>> light = light_->images(pupil_field(truth, truth_mask_));
     const std::vector<Image<double>> images = detector_images(light, screen);
 
     const auto start = std::chrono::steady_clock::now();
@@ -75,14 +75,6 @@ class Experiment {
   /// The light of a unit-amplitude pupil, in units of intensity times detector pixels.
   double pupil_energy() const {
     return double(truth_mask_.count()) / (samples_per_pixel_ * samples_per_pixel_);
-  }
-
-  std::vector<Image<double>> integrated_light(const Field<double>& pupil) const {
-    std::vector<Image<double>> images;
-    for (const Field<double>& field : light_->at_planes(pupil)) {
-      images.push_back(integrate_pixels(field, samples_per_pixel_));
-    }
-    return images;
   }
 
   /// The light with the detector's noise; each plane gets an equal share of the photons.

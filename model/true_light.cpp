@@ -1,10 +1,13 @@
 #include "model/true_light.hpp"
 
+#include "model/detector.hpp"
 #include "model/fresnel_propagator.hpp"
 #include "model/grid_width.hpp"
 #include "model/wrap_free_propagator.hpp"
 
 #include <cassert>
+
+#include <tbb/enumerable_thread_specific.h>
 
 namespace nlcwfs {
 namespace {
@@ -12,26 +15,39 @@ namespace {
 class ExtendedLight final : public TrueLight {
  public:
   ExtendedLight(const Telescope& telescope, const SensorDesign& design, int pupil_samples)
-      : propagator_(pupil_samples, grid_width(design.detector.window, pupil_samples),
-                    telescope.diameter / pupil_samples, telescope.wavelength) {
+      : samples_per_pixel_(pupil_samples / design.detector.pupil_pixels),
+        propagator_(pupil_samples, grid_width(design.detector.window, pupil_samples),
+                    telescope.diameter / pupil_samples, telescope.wavelength),
+        buffers_([this] {
+          return Buffers{propagator_.working_field(), propagator_.working_field()};
+        }) {
     for (const double plane : design.planes) {
       transfer_functions_.push_back(propagator_.transfer_function(plane));
     }
   }
 
-  std::vector<Field<double>> at_planes(const Field<double>& pupil) const override {
-    const Field<double> spectrum = propagator_.spectrum(pupil);
-    std::vector<Field<double>> fields;
-    fields.reserve(transfer_functions_.size());
+  std::vector<Image<double>> images(const Field<double>& pupil) const override {
+    auto& [spectrum, field] = buffers_.local();
+    const int window = propagator_.window_samples();
+    propagator_.transform(pupil, spectrum);
+    std::vector<Image<double>> images;
     for (const LineFactors<double>& transfer : transfer_functions_) {
-      fields.push_back(propagator_.field(spectrum, transfer));
+      propagator_.propagate(spectrum, transfer, field);
+      images.push_back(integrate_pixels(field.topLeftCorner(window, window), samples_per_pixel_));
     }
-    return fields;
+    return images;
   }
 
  private:
+  struct Buffers {
+    Field<double> spectrum;
+    Field<double> field;
+  };
+
+  int samples_per_pixel_;
   WrapFreePropagator propagator_;
   std::vector<LineFactors<double>> transfer_functions_;
+  mutable tbb::enumerable_thread_specific<Buffers> buffers_;
 };
 
 class MatchedLight final : public TrueLight {
@@ -39,23 +55,28 @@ class MatchedLight final : public TrueLight {
   MatchedLight(const Telescope& telescope, const SensorDesign& design)
       : planes_(design.planes),
         propagator_(design.grid_width(), telescope.diameter / design.pupil_samples(),
-                    telescope.wavelength) {}
+                    telescope.wavelength),
+        fields_(
+            [samples = propagator_.samples()] { return padded_lines<double>(samples, samples); }) {}
 
-  std::vector<Field<double>> at_planes(const Field<double>& pupil) const override {
-    const Eigen::Index width = propagator_.samples();
-    const Eigen::Index border = (width - pupil.rows()) / 2;
-    Field<double> padded = Field<double>::Zero(width, width);
-    padded.block(border, border, pupil.rows(), pupil.cols()) = pupil;
-    std::vector<Field<double>> fields(planes_.size(), padded);
-    for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
-      propagator_.propagate(fields[plane], planes_[plane]);
+  std::vector<Image<double>> images(const Field<double>& pupil) const override {
+    const int width = propagator_.samples();
+    const RowRange pupil_rows = propagator_.middle_rows(pupil.rows());
+    Field<double>& field = fields_.local();
+    std::vector<Image<double>> images;
+    for (const double plane : planes_) {
+      field.setZero();
+      field.block(pupil_rows.first, pupil_rows.first, pupil.rows(), pupil.cols()) = pupil;
+      propagator_.propagate(field, plane);
+      images.push_back(integrate_pixels(field.leftCols(width), 1));
     }
-    return fields;
+    return images;
   }
 
  private:
   std::vector<double> planes_;
   FresnelPropagator<double> propagator_;
+  mutable tbb::enumerable_thread_specific<Field<double>> fields_;
 };
 
 }  // namespace

@@ -15,15 +15,15 @@ enum class TruthModel {
   matched    ///< the reconstructor's own periodic grid, all of it measured (the paper's way)
 };
 
-/// The light that a sensor's detectors see, before they integrate it over their pixels.
+/// The light that a sensor's detectors see.
 class TrueLight {
  public:
   virtual ~TrueLight() = default;
 
-  /// The fields of a beam in the detector's window of each plane, in visiting order.
+  /// The images that a beam makes on the detectors, in visiting order: the mean intensity of each
+  /// pixel, without noise. May be called from many threads.
   /// @param pupil  the field in the pupil, m x m samples across the diameter
-  /// @return fields of window * m samples a side, of the pupil's pitch
-  virtual std::vector<Field<double>> at_planes(const Field<double>& pupil) const = 0;
+  virtual std::vector<Image<double>> images(const Field<double>& pupil) const = 0;
 };
 
 /// @param pupil_samples  m; for a matched truth the design's own

@@ -72,26 +72,32 @@ LineFactors<double> WrapFreePropagator::transfer_function(double distance) const
   return LineFactors<double>(transfer / double(length));
 }
 
-Field<double> WrapFreePropagator::spectrum(const Field<double>& pupil) const {
-  assert(pupil.rows() == pupil_samples_ && pupil.cols() == pupil_samples_);
+Field<double> WrapFreePropagator::working_field() const {
+  return padded_lines<double>(transform_.length(), transform_.length());
+}
+
+void WrapFreePropagator::transform(const Field<double>& pupil, Field<double>& spectrum) const {
   const int length = transform_.length();
-  Field<double> spectrum = padded_lines<double>(length, length);
-  spectrum.topLeftCorner(pupil_samples_, pupil_samples_) = pupil;
+  assert(pupil.rows() == pupil_samples_ && pupil.cols() == pupil_samples_);
+  assert(spectrum.rows() == length && spectrum.cols() >= length);
+  Eigen::ArrayXcd line = Eigen::ArrayXcd::Zero(length);
+  for (int row = 0; row < pupil_samples_; ++row) {
+    line.head(pupil_samples_) = pupil.row(row);
+    transform_.forward(line.data(), spectrum.row(row).data());
+  }
   using Sample = std::complex<double>;
-  for_each_row(spectrum, length, 0, pupil_samples_,
-               [&](const Sample* in, Sample* out) { transform_.forward(in, out); });
   for_each_column(
       spectrum, {0, pupil_samples_}, spectrum, {0, length}, length,
       [&](const Sample* in, Sample* out, Eigen::Index) { transform_.forward(in, out); });
-  return spectrum;
 }
 
-Field<double> WrapFreePropagator::field(const Field<double>& spectrum,
-                                        const LineFactors<double>& transfer) const {
+void WrapFreePropagator::propagate(const Field<double>& spectrum,
+                                   const LineFactors<double>& transfer,
+                                   Field<double>& field) const {
   const int length = transform_.length();
-  assert(spectrum.rows() == length && transfer.length() == length);
+  assert(spectrum.rows() == length && field.rows() == length && field.cols() >= length);
+  assert(transfer.length() == length);
   using Sample = std::complex<double>;
-  Field<double> field = padded_lines<double>(length, length);
   Eigen::ArrayXcd filtered(length);
   for_each_column(spectrum, {0, length}, field, {0, window_samples_}, length,
                   [&](const Sample* in, Sample* out, Eigen::Index column) {
@@ -100,7 +106,6 @@ Field<double> WrapFreePropagator::field(const Field<double>& spectrum,
                   });
   for_each_row(field, length, 0, window_samples_,
                [&](const Sample* in, Sample* out) { transform_.backward(in, out); });
-  return field.topLeftCorner(window_samples_, window_samples_);
 }
 
 }  // namespace nlcwfs

@@ -28,6 +28,8 @@ class WrapFreePropagator {
   WrapFreePropagator(int pupil_samples, int window_samples, double pitch, double wavelength,
                      double period_margin = 16.0);
 
+  int window_samples() const { return window_samples_; }
+
   /// The farthest plane, m: beyond it the kernel's period would have to be longer than 2^24 samples
   /// (1 GiB of work space) to leave the light room for four times its reach.
   double farthest_distance() const;
@@ -36,11 +38,18 @@ class WrapFreePropagator {
   /// @pre |distance| <= farthest_distance()
   LineFactors<double> transfer_function(double distance) const;
 
-  /// The transform of a pupil field (pupil_samples x pupil_samples), shared by all planes.
-  Field<double> spectrum(const Field<double>& pupil) const;
+  /// Room for a spectrum or a field.
+  Field<double> working_field() const;
 
-  /// The field in the window (window_samples x window_samples) of one plane.
-  Field<double> field(const Field<double>& spectrum, const LineFactors<double>& transfer) const;
+  /// The transform of a pupil field (pupil_samples x pupil_samples), shared by all planes.
+  /// @param spectrum  a working_field()
+  void transform(const Field<double>& pupil, Field<double>& spectrum) const;
+
+  /// The field in the window of one plane.
+  /// @param field  a working_field(), whose first window_samples x window_samples become the
+  ///               window; the others are undefined
+  void propagate(const Field<double>& spectrum, const LineFactors<double>& transfer,
+                 Field<double>& field) const;
 
  private:
   int pupil_samples_;
