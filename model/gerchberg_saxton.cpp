@@ -61,7 +61,7 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
   std::vector<Image<Real>> amplitudes;
   for (const Image<double>& image : images) {
     assert(image.rows() == design_.detector.width() && image.cols() == image.rows());
-    amplitudes.push_back(image.max(0.0).sqrt().template cast<Real>());
+    amplitudes.push_back(image.max(0.0).template cast<Real>().sqrt());
   }
 
   const RowRange all_rows{0, propagator_.samples()};

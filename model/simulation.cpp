@@ -19,6 +19,9 @@
 namespace nlcwfs {
 namespace {
 
+/// The most that kept images may take, bytes: 32 planes of the default design and 16 screens.
+constexpr std::size_t kept_image_memory = std::size_t{256} * 1024 * 1024;
+
 /// For each plane its rank by distance, so that the noise belongs to the plane and not to the order
 /// in which the planes are visited.
 std::vector<std::size_t> ranks_by_distance(const std::vector<double>& planes) {
@@ -36,11 +39,13 @@ template <class Real>
 class Experiment {
  public:
   Experiment(const Telescope& telescope, const SensorDesign& design,
-             const SimulationOptions& options, const PupilMask& truth_mask)
+             const SimulationOptions& options, const PupilMask& truth_mask, ImageCache& images)
       : telescope_(telescope),
         detector_(design.detector),
+        planes_(design.planes),
         options_(options),
         truth_mask_(truth_mask),
+        images_(images),
         samples_per_pixel_(static_cast<int>(truth_mask.rows()) / design.detector.pupil_pixels),
         noise_keys_(ranks_by_distance(design.planes)),
         light_(
@@ -49,7 +54,7 @@ class Experiment {
         unwrapper_(reconstructor_.mask(), design.reconstruction.unwrapping) {}
 
   ScreenPerformance run(const PhaseScreen& truth, std::size_t screen) const {
-    const std::vector<Image<double>> light = light_->images(pupil_field(truth, truth_mask_));
+    const std::vector<ImageCache::SharedImage> light = noise_free_images(truth, screen);
     const std::vector<Image<double>> images = detector_images(light, screen);
 
     const auto start = std::chrono::steady_clock::now();
@@ -65,8 +70,8 @@ class Experiment {
     result.fractional_loops = reconstruction.fractional_loops;
     result.fft_count = reconstruction.fft_count;
     result.seconds = elapsed.count();
-    for (const Image<double>& image : light) {
-      result.captured_energy.push_back(image.sum() / pupil_energy());
+    for (const ImageCache::SharedImage& image : light) {
+      result.captured_energy.push_back(image->sum() / pupil_energy());
     }
     return result;
   }
@@ -77,9 +82,31 @@ class Experiment {
     return double(truth_mask_.count()) / (samples_per_pixel_ * samples_per_pixel_);
   }
 
+  std::vector<ImageCache::SharedImage> noise_free_images(const PhaseScreen& truth,
+                                                         std::size_t screen) const {
+    const auto key = [&](std::size_t plane) {
+      return ImageCache::Key{screen, planes_[plane], detector_.width(), detector_.pupil_pixels};
+    };
+    std::vector<ImageCache::SharedImage> images(planes_.size());
+    std::vector<std::size_t> missing;
+    for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
+      images[plane] = images_.find(key(plane));
+      if (!images[plane]) missing.push_back(plane);
+    }
+    if (missing.empty()) return images;
+    std::vector<Image<double>> made = light_->images(pupil_field(truth, truth_mask_), missing);
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+      images[missing[i]] = std::make_shared<const Image<double>>(std::move(made[i]));
+      images_.add(key(missing[i]), images[missing[i]]);
+    }
+    return images;
+  }
+
   /// The light with the detector's noise; each plane gets an equal share of the photons.
-  std::vector<Image<double>> detector_images(std::vector<Image<double>> images,
+  std::vector<Image<double>> detector_images(const std::vector<ImageCache::SharedImage>& light,
                                              std::size_t screen) const {
+    std::vector<Image<double>> images;
+    for (const ImageCache::SharedImage& image : light) images.push_back(*image);
     if (detector_.photons == 0.0) return images;
     const double photons_per_unit = detector_.photons / double(images.size()) / pupil_energy();
     for (std::size_t plane = 0; plane < images.size(); ++plane) {
@@ -91,8 +118,10 @@ class Experiment {
 
   const Telescope& telescope_;
   Detector detector_;
+  std::vector<double> planes_;
   SimulationOptions options_;
   const PupilMask& truth_mask_;
+  ImageCache& images_;
   int samples_per_pixel_;
   std::vector<std::size_t> noise_keys_;
   std::unique_ptr<const TrueLight> light_;
@@ -103,8 +132,8 @@ class Experiment {
 template <class Real>
 Performance run_all(const Telescope& telescope, const SensorDesign& design,
                     const SimulationOptions& options, const PupilMask& truth_mask,
-                    const std::vector<PhaseScreen>& screens) {
-  const Experiment<Real> experiment(telescope, design, options, truth_mask);
+                    const std::vector<PhaseScreen>& screens, ImageCache& images) {
+  const Experiment<Real> experiment(telescope, design, options, truth_mask, images);
   Performance performance;
   performance.screens.resize(screens.size());
   tbb::parallel_for(std::size_t{0}, screens.size(), [&](std::size_t screen) {
@@ -171,7 +200,10 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, T
 
 Simulation::Simulation(const Telescope& telescope, std::vector<PhaseScreen> screens,
                        const SimulationOptions& options)
-    : telescope_(telescope), screens_(std::move(screens)), options_(options) {
+    : telescope_(telescope),
+      screens_(std::move(screens)),
+      options_(options),
+      images_(kept_image_memory) {
   telescope_.validate();
   if (screens_.empty()) throw InputError("screens.count", 0, "at least 1");
   mask_ = pupil_mask(static_cast<int>(screens_.front().rows()), telescope_.central_obscuration);
@@ -183,9 +215,10 @@ SensorDesign Simulation::checked(SensorDesign design) const {
 
 Performance Simulation::evaluate(const SensorDesign& design) const {
   const SensorDesign valid = checked(design);
-  Performance performance = options_.precision == Precision::double_precision
-                                ? run_all<double>(telescope_, valid, options_, mask_, screens_)
-                                : run_all<float>(telescope_, valid, options_, mask_, screens_);
+  Performance performance =
+      options_.precision == Precision::double_precision
+          ? run_all<double>(telescope_, valid, options_, mask_, screens_, images_)
+          : run_all<float>(telescope_, valid, options_, mask_, screens_, images_);
   for (const ScreenPerformance& screen : performance.screens) {
     if (!std::isfinite(screen.wavefront.residual_wfe) ||
         !std::isfinite(screen.wavefront.total_wfe)) {

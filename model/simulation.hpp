@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/array.hpp"
+#include "model/image_cache.hpp"
 #include "model/performance.hpp"
 #include "model/pupil.hpp"
 #include "model/sensor_design.hpp"
@@ -33,7 +34,12 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, T
 /// detector images -> Gerchberg-Saxton reconstruction -> unwrapping -> metrics.
 ///
 /// Every design sees the same wavefronts and the same streams of noise (common random numbers).
-/// Screens run in parallel; the result does not depend on the number of threads.
+/// Screens run in parallel; the result does not depend on the number of threads. Images are kept
+/// for designs that share planes.
+///
+/// Memory: the screens, kept images of at most 256 MiB, and for each thread two complex fields of
+/// (detector + pupil) x (detector + pupil) truth samples and one of the reconstruction grid, with
+/// the images of one screen.
 class Simulation {
  public:
   /// @param screens  true phases, all m x m samples across the diameter, rad
@@ -57,6 +63,7 @@ class Simulation {
   std::vector<PhaseScreen> screens_;
   SimulationOptions options_;
   PupilMask mask_;
+  mutable ImageCache images_;
 };
 
 }  // namespace nlcwfs

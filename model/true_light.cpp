@@ -26,13 +26,14 @@ class ExtendedLight final : public TrueLight {
     }
   }
 
-  std::vector<Image<double>> images(const Field<double>& pupil) const override {
+  std::vector<Image<double>> images(const Field<double>& pupil,
+                                    std::span<const std::size_t> wanted) const override {
     auto& [spectrum, field] = buffers_.local();
     const int window = propagator_.window_samples();
     propagator_.transform(pupil, spectrum);
     std::vector<Image<double>> images;
-    for (const LineFactors<double>& transfer : transfer_functions_) {
-      propagator_.propagate(spectrum, transfer, field);
+    for (const std::size_t plane : wanted) {
+      propagator_.propagate(spectrum, transfer_functions_[plane], field);
       images.push_back(integrate_pixels(field.topLeftCorner(window, window), samples_per_pixel_));
     }
     return images;
@@ -59,15 +60,16 @@ class MatchedLight final : public TrueLight {
         fields_(
             [samples = propagator_.samples()] { return padded_lines<double>(samples, samples); }) {}
 
-  std::vector<Image<double>> images(const Field<double>& pupil) const override {
+  std::vector<Image<double>> images(const Field<double>& pupil,
+                                    std::span<const std::size_t> wanted) const override {
     const int width = propagator_.samples();
     const RowRange pupil_rows = propagator_.middle_rows(pupil.rows());
     Field<double>& field = fields_.local();
     std::vector<Image<double>> images;
-    for (const double plane : planes_) {
+    for (const std::size_t plane : wanted) {
       field.setZero();
       field.block(pupil_rows.first, pupil_rows.first, pupil.rows(), pupil.cols()) = pupil;
-      propagator_.propagate(field, plane);
+      propagator_.propagate(field, planes_[plane]);
       images.push_back(integrate_pixels(field.leftCols(width), 1));
     }
     return images;

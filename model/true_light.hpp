@@ -4,7 +4,9 @@
 #include "model/sensor_design.hpp"
 #include "model/telescope.hpp"
 
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace nlcwfs {
@@ -20,10 +22,12 @@ class TrueLight {
  public:
   virtual ~TrueLight() = default;
 
-  /// The images that a beam makes on the detectors, in visiting order: the mean intensity of each
-  /// pixel, without noise. May be called from many threads.
-  /// @param pupil  the field in the pupil, m x m samples across the diameter
-  virtual std::vector<Image<double>> images(const Field<double>& pupil) const = 0;
+  /// The image that a beam makes on the detector of each of the wanted planes: the mean intensity
+  /// of every pixel, without noise. May be called from many threads.
+  /// @param pupil   the field in the pupil, m x m samples across the diameter
+  /// @param wanted  indices of planes in visiting order
+  virtual std::vector<Image<double>> images(const Field<double>& pupil,
+                                            std::span<const std::size_t> wanted) const = 0;
 };
 
 /// @param pupil_samples  m; for a matched truth the design's own

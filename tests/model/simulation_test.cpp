@@ -147,6 +147,20 @@ TEST_P(SimulationTruth, AScreensResultDoesNotDependOnTheOthers) {
   expect_identical(evaluate(design_, {screens_[0]}, options_), first);
 }
 
+TEST_P(SimulationTruth, ImagesKeptFromOtherDesignsChangeNothing) {
+  // One plane or more in common, in another order, seen by another detector, with noise or none.
+  std::vector<SensorDesign> designs(5, design_);
+  designs[1].planes = {design_.planes[2], design_.planes[1], -70e3, 70e3};
+  designs[2].detector.window = designs[2].reconstruction.window = 2.0;
+  designs[3].detector.photons = 1e5;
+  designs[4].detector.pupil_pixels = matched() ? screen_samples : 32;
+  const Simulation simulation({}, screens_, options_);
+  for (const SensorDesign& design : designs) {
+    expect_identical(simulation.evaluate(design), evaluate(design, screens_, options_));
+    expect_identical(simulation.evaluate(design), evaluate(design, screens_, options_));
+  }
+}
+
 TEST_P(SimulationTruth, SinglePrecisionAgreesWithDouble) {
   SimulationOptions single = options_;
   single.precision = Precision::single_precision;

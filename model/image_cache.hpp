@@ -1,0 +1,50 @@
+#pragma once
+
+#include "model/array.hpp"
+
+#include <compare>
+#include <cstddef>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace nlcwfs {
+
+/// Noise-free detector images, kept for the next design that reads the same plane with the same
+/// detector: designs of a search or a sweep share most of theirs. Holds a bounded amount of memory,
+/// of which the images that were not asked for the longest go first. May be used by many threads.
+class ImageCache {
+ public:
+  /// What an image depends on, with one telescope, truth and set of screens.
+  struct Key {
+    std::size_t screen;
+    double plane;      ///< signed distance, m
+    int width;         ///< of the detector, pixels
+    int pupil_pixels;  ///< across the pupil
+
+    auto operator<=>(const Key&) const = default;
+  };
+  using SharedImage = std::shared_ptr<const Image<double>>;
+
+  /// @param bytes  the most that the images may take together
+  explicit ImageCache(std::size_t bytes) : capacity_(bytes) {}
+
+  /// The image, or null where it is not held.
+  SharedImage find(const Key& key);
+
+  /// Holds an image, unless it alone is larger than the cache.
+  void add(const Key& key, SharedImage image);
+
+ private:
+  using Entries = std::list<std::pair<Key, SharedImage>>;
+
+  std::size_t capacity_;
+  std::mutex lock_;
+  std::size_t bytes_ = 0;
+  Entries entries_;  ///< the last used one first
+  std::map<Key, Entries::iterator> index_;
+};
+
+}  // namespace nlcwfs
