@@ -1,0 +1,35 @@
+// The search that the program makes unless told otherwise, all threads, without its verification.
+
+#include "benchmarks/default_problem.hpp"
+#include "objectives/placement_problem.hpp"
+#include "optimizer/chained_search.hpp"
+
+#include <benchmark/benchmark.h>
+
+namespace nlcwfs {
+namespace {
+
+void search_default(benchmark::State& state) {
+  const Telescope telescope;
+  const DistanceRange range = default_distance_range(telescope);
+  const SymmetricLayout layout(telescope, range, range);
+  const SensorDesign design;
+  SearchOptions options;
+  options.starts = {*layout.point_of(design.planes),
+                    *layout.point_of({-47e3, 47e3, -180e3, 180e3})};
+  int evaluations = 0;
+  while (state.KeepRunning()) {
+    const Simulation simulation = default_simulation({});
+    PlacementProblem problem(simulation, layout, design, DesignCost());
+    evaluations += search(problem, options).evaluations;
+  }
+  state.counters["evaluations"] =
+      benchmark::Counter(evaluations, benchmark::Counter::kAvgIterations);
+}
+
+BENCHMARK(search_default)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace nlcwfs
+
+BENCHMARK_MAIN();
