@@ -54,13 +54,15 @@ class Experiment {
         unwrapper_(reconstructor_.mask(), design.reconstruction.unwrapping) {}
 
   ScreenPerformance run(const PhaseScreen& truth, std::size_t screen) const {
+    using Clock = std::chrono::steady_clock;
+    const auto data_start = Clock::now();
     const std::vector<ImageCache::SharedImage> light = noise_free_images(truth, screen);
     const std::vector<Image<double>> images = detector_images(light, screen);
 
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const Reconstruction reconstruction = reconstructor_.reconstruct(images);
     const Image<double> phase = unwrapper_.unwrap(reconstruction.pupil_field);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const std::chrono::duration<double> elapsed = Clock::now() - start;
 
     ScreenPerformance result;
     result.wavefront = measure_wavefront(reconstruction.pupil_field, phase, reconstructor_.mask(),
@@ -70,6 +72,7 @@ class Experiment {
     result.fractional_loops = reconstruction.fractional_loops;
     result.fft_count = reconstruction.fft_count;
     result.seconds = elapsed.count();
+    result.data_seconds = std::chrono::duration<double>(start - data_start).count();
     for (const ImageCache::SharedImage& image : light) {
       result.captured_energy.push_back(image->sum() / pupil_energy());
     }
