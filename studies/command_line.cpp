@@ -183,7 +183,8 @@ const std::vector<Command>& commands() {
       {"evaluate", "measure one design: wavefront error, loops and time with standard errors"},
       {"screens", "make phase screens: a FITS cube and its statistics"},
       {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
-      {"optimize", "find a telescope's best design and verify it on fresh screens"}};
+      {"optimize", "find a telescope's best design and verify it on fresh screens"},
+      {"benchmark", "time a configuration on this machine; writes files only with --output"}};
   return known;
 }
 

@@ -44,6 +44,7 @@ void run(int argc, const char* const* argv) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   static const std::map<std::string, std::function<void(const CommandLine&)>> studies{
+      {"benchmark", run_benchmark},
       {"evaluate", run_evaluate},
       {"optimize", run_optimize},
       {"scale", run_scale},

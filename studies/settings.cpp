@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -37,12 +38,6 @@ bool is_matched(const Configuration& configuration) {
   return configuration.choice("simulation.truth") == "matched";
 }
 
-/// Samples of the true field across the pupil; a matched truth has the detector's.
-int truth_samples(const Configuration& configuration) {
-  return configuration.integer(is_matched(configuration) ? "detector.pupil_pixels"
-                                                         : "simulation.pupil_samples");
-}
-
 /// Refuses more screens than memory is allowed for, before they are made.
 /// @param key, value  what asks for so many
 template <class Value>
@@ -60,12 +55,13 @@ void require_memory(std::string_view key, const Value& value, int count, int sam
 
 std::vector<PhaseScreen> simulated_screens(const Configuration& configuration,
                                            const Telescope& telescope, int samples, int count,
-                                           std::string_view count_key, std::string_view seed_key) {
+                                           std::string_view count_key, std::string_view seed_key,
+                                           int most = std::numeric_limits<int>::max()) {
   require_memory(count_key, count, count, samples);
   return generate_screens(
       TurbulenceScreenGenerator(seeing_of(configuration, telescope), samples, telescope.diameter,
                                 configuration.seed(seed_key)),
-      count);
+      std::min(count, most));
 }
 
 /// By default four times the search's, so that the verification adds little noise of its own.
@@ -232,6 +228,11 @@ std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
   return std::make_unique<FreeLayout>(telescope, std::move(ranges));
 }
 
+int truth_samples(const Configuration& configuration) {
+  return configuration.integer(is_matched(configuration) ? "detector.pupil_pixels"
+                                                         : "simulation.pupil_samples");
+}
+
 SimulationOptions simulation_options_of(const Configuration& configuration) {
   return {.truth = is_matched(configuration) ? TruthModel::matched : TruthModel::extended,
           .precision = choice_of<Precision>(
@@ -241,14 +242,15 @@ SimulationOptions simulation_options_of(const Configuration& configuration) {
 }
 
 std::vector<PhaseScreen> screens_of(const Configuration& configuration,
-                                    std::vector<std::string>& notes) {
+                                    std::vector<std::string>& notes, int most) {
   const Telescope telescope = telescope_of(configuration);
   const int samples = truth_samples(configuration);
   if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
     return screens_from_file(file, telescope, samples, notes);
   }
   return simulated_screens(configuration, telescope, samples,
-                           configuration.integer("screens.count"), "screens.count", "screens.seed");
+                           configuration.integer("screens.count"), "screens.count", "screens.seed",
+                           most);
 }
 
 Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes) {

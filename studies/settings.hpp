@@ -8,6 +8,7 @@
 #include "objectives/plane_layout.hpp"
 #include "studies/configuration.hpp"
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,12 +38,17 @@ DesignCost cost_of(const Configuration& configuration);
 std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
                                        const Telescope& telescope);
 
+/// Samples of the true field across the pupil; a matched truth has the detector's.
+int truth_samples(const Configuration& configuration);
+
 SimulationOptions simulation_options_of(const Configuration& configuration);
 
 /// The wavefronts of the section screens, simulated or from a file, at the truth's samples.
 /// @param notes  gets a line where screens had to be resampled
+/// @param most   no more than the first so many are simulated; a file's are read all the same
 std::vector<PhaseScreen> screens_of(const Configuration& configuration,
-                                    std::vector<std::string>& notes);
+                                    std::vector<std::string>& notes,
+                                    int most = std::numeric_limits<int>::max());
 
 /// The simulation of the sections screens and simulation; notes as above.
 Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes);

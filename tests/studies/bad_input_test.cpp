@@ -39,7 +39,7 @@ TEST_F(BadInput, OfTheCommandLine) {
   expect_refused("evaluate", {"--detector.pupil_pixel", "16"},
                  "command line = --detector.pupil_pixel", "did you mean --detector.pupil_pixels?");
   expect_refused("optimise", {}, "command = optimise",
-                 "one of evaluate, screens, scale, optimize; did you mean optimize?");
+                 "one of evaluate, screens, scale, optimize, benchmark; did you mean optimize?");
   expect_refused("evaluate", {"optimize"}, "command line = optimize", "nothing may follow");
   expect_refused("evaluate", {"--screens.count"}, "screens.count = (nothing)", "a whole number");
   expect_refused("evaluate", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");
@@ -115,6 +115,19 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
   expect_refused("evaluate", {"--seeing.fwhm", "1e9"},
                  "seeing.fried_parameter = 1.0709928787729236e-10", "at least the diameter");
   expect_refused("scale", {}, "scale.diameter = (nothing)", "such as --scale.diameter 8.2m");
+}
+
+TEST_F(BadInput, OfABenchmark) {
+  expect_refused("benchmark", {"--detector.pupil_pixels", "15"}, "detector.pupil_pixels = 15",
+                 "an even number");
+  expect_refused("benchmark", {"--simulation.pupil_samples", "40"}, "simulation.pupil_samples = 40",
+                 "a multiple of detector.pupil_pixels");
+  expect_refused("benchmark", {"--simulation.pupil_samples", "64", "--screens.count", "1000000"},
+                 "screens.count = 1000000", "GiB of memory");
+  expect_refused("benchmark", {"--screens.file", "missing.fits"}, "screens.file = missing.fits",
+                 "");
+  expect_refused("benchmark", {"--search.budget", "0"}, "search.budget = 0", "from 1 to");
+  expect_refused("benchmark", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");
 }
 
 TEST_F(BadInput, OfASearch) {

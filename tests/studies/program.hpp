@@ -83,7 +83,8 @@ class Program : public ScratchFolder {
 
   static void erase_times(nlohmann::json& json) {
     if (json.is_object()) {
-      for (const char* name : {"seconds", "wall_seconds", "search_seconds"}) json.erase(name);
+      for (const char* name : {"seconds", "wall_seconds", "search_seconds", "timing"})
+        json.erase(name);
     }
     for (auto& element : json) {
       if (element.is_structured()) erase_times(element);
