@@ -20,6 +20,7 @@ inline int default_truth_samples(TruthModel truth) {
   return truth == TruthModel::matched ? Detector().pupil_pixels : 128;
 }
 
+/// A new one has made no images yet.
 inline Simulation default_simulation(const SimulationOptions& options, int screen_count = 16) {
   return {Telescope(), default_screens(default_truth_samples(options.truth), screen_count),
           options};

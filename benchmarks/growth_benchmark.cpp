@@ -41,10 +41,14 @@ void loop_with_planes(benchmark::State& state) {
 }
 
 void design_with_screens(benchmark::State& state) {
-  const Simulation simulation = default_simulation({}, static_cast<int>(state.range(0)));
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(1)));
-  while (state.KeepRunning()) benchmark::DoNotOptimize(simulation.evaluate(SensorDesign()));
+  while (state.KeepRunning()) {
+    state.PauseTiming();
+    const Simulation simulation = default_simulation({}, static_cast<int>(state.range(0)));
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(simulation.evaluate(SensorDesign()));
+  }
 }
 
 BENCHMARK(loop_with_window)

@@ -19,7 +19,7 @@ void search_default(benchmark::State& state) {
                     *layout.point_of({-47e3, 47e3, -180e3, 180e3})};
   int evaluations = 0;
   while (state.KeepRunning()) {
-    const Simulation simulation = default_simulation({});
+    const Simulation simulation = default_simulation({.precision = Precision::single_precision});
     PlacementProblem problem(simulation, layout, design, DesignCost());
     evaluations += search(problem, options).evaluations;
   }

@@ -68,17 +68,10 @@ double median_of(const std::vector<EvaluationTime>& times, const Figure& figure)
   return *middle;
 }
 
-/// What is repeated for one precision of the reconstruction, and how long it took each time.
+/// How long one precision of the reconstruction took each time.
 struct Trial {
-  Simulation one_screen;
-  Simulation all_screens;
-  std::vector<EvaluationTime> alone = {};     ///< one screen on one thread
-  std::vector<EvaluationTime> together = {};  ///< all screens on all threads
-
-  void repeat(const SensorDesign& design) {
-    alone.push_back(evaluation_on_one_thread(one_screen, design));
-    together.push_back(timed_evaluation(all_screens, design));
-  }
+  std::vector<EvaluationTime> alone;     ///< one screen on one thread
+  std::vector<EvaluationTime> together;  ///< all screens on all threads
 };
 
 /// How fast one precision of the reconstruction is; medians over the repetitions.
@@ -98,7 +91,7 @@ class Benchmark {
   explicit Benchmark(const Configuration& configuration)
       : telescope_(telescope_of(configuration)),
         seeing_(seeing_of(configuration, telescope_)),
-        options_(simulation_options_of(configuration)),
+        options_(simulation_options_of(configuration, "simulation.precision")),
         // Before the screens, which may take long.
         design_(simulated_design(design_of(configuration), telescope_, options_.truth,
                                  nlcwfs::truth_samples(configuration))),
@@ -121,12 +114,12 @@ class Benchmark {
 
   /// In double and in single precision.
   std::pair<Speed, Speed> speeds() const {
-    Trial in_double = trial(Precision::double_precision);
-    Trial in_single = trial(Precision::single_precision);
+    Trial in_double;
+    Trial in_single;
     // In turns, so that what else the machine does meets both.
     for (int repetition = 0; repetition < repetitions_; ++repetition) {
-      in_double.repeat(design_);
-      in_single.repeat(design_);
+      repeat(Precision::double_precision, in_double);
+      repeat(Precision::single_precision, in_single);
     }
     return {speed_of(in_double), speed_of(in_single)};
   }
@@ -156,8 +149,10 @@ class Benchmark {
     return {telescope_, {screens_.begin(), screens_.begin() + screens}, options};
   }
 
-  Trial trial(Precision precision) const {
-    return {simulation(precision, 1), simulation(precision, used_screens_)};
+  /// In new simulations, which have no images yet.
+  void repeat(Precision precision, Trial& trial) const {
+    trial.alone.push_back(evaluation_on_one_thread(simulation(precision, 1), design_));
+    trial.together.push_back(timed_evaluation(simulation(precision, used_screens_), design_));
   }
 
   Speed speed_of(const Trial& trial) const {
@@ -242,9 +237,8 @@ void print_task(const Benchmark& benchmark, const Configuration& configuration) 
   fmt::print("{}\n", telescope_line(benchmark.telescope(), benchmark.seeing()));
   const auto square = [](int samples) { return fmt::format("{0} x {0}", samples); };
   const SensorDesign& design = benchmark.design();
-  fmt::print("{} planes of {} pixels, reconstruction grid {}, simulation.precision = {}\n",
-             design.planes.size(), square(design.detector.width()), square(design.grid_width()),
-             configuration.choice("simulation.precision"));
+  fmt::print("{} planes of {} pixels, reconstruction grid {}\n", design.planes.size(),
+             square(design.detector.width()), square(design.grid_width()));
   fmt::print("{} of {} samples, {} truth, {}\n\n",
              counted(benchmark.configured_screens(), "screen"), square(benchmark.truth_samples()),
              configuration.choice("simulation.truth"), counted(benchmark.threads(), "thread"));
@@ -292,8 +286,10 @@ void print_reading(const Benchmark& benchmark, double memory) {
     fmt::print("Timed on {} of the screens and scaled to all of them.\n", benchmark.used_screens());
   }
   fmt::print(
-      "A search takes that long if its designs need as many loops as this one, then verifies its\n"
-      "best one. More threads pay as long as loops per second grow with them (--threads).\n");
+      "A search takes that long if its designs need as many loops as this one and share no "
+      "planes,\n"
+      "then verifies its best one. More threads pay as long as loops per second grow with them "
+      "(--threads).\n");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ void run_evaluate(const CommandLine& command_line) {
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   std::vector<std::string> notes;
-  const Simulation simulation = simulation_of(configuration, notes);
+  const Simulation simulation = simulation_of(configuration, "simulation.precision", notes);
   const SensorDesign design = simulation.checked(design_of(configuration));
   const DesignCost cost = cost_of(configuration);
   RunRecord record(command_line);

@@ -67,7 +67,7 @@ Task::Task(const Configuration& configuration)
       cost(cost_of(configuration)),
       layout(layout_of(configuration, telescope)),
       search(search_options_of(configuration, *layout)),
-      simulation(simulation_of(configuration, notes)),
+      simulation(simulation_of(configuration, "search.precision", notes)),
       verification(verification_of(configuration)),
       design(simulation.checked(design_of(configuration))),
       baseline(simulation.checked(baseline_of(configuration))) {
@@ -230,13 +230,13 @@ std::string verdict_text(const Improvement& improvement, const VerifiedDesign& b
       with_error({-improvement.cost.mean, improvement.cost.standard_error}));
 }
 
-void print_result(const Task& task, const SearchResult& result, double search_seconds,
-                  const VerifiedDesign& best, const VerifiedDesign& baseline,
+void print_result(const Task& task, const SearchResult& result, std::string_view precision,
+                  double search_seconds, const VerifiedDesign& best, const VerifiedDesign& baseline,
                   const Improvement& gain) {
   for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
-  fmt::print("Tried {} designs on {} screens in {}, {}{}.\n\n", result.evaluations,
-             task.simulation.screen_count(), duration_text(search_seconds),
+  fmt::print("Tried {} designs on {} screens in {} precision in {}, {}{}.\n\n", result.evaluations,
+             task.simulation.screen_count(), precision, duration_text(search_seconds),
              ending_text(result.termination),
              result.failures > 0
                  ? fmt::format("; {} of them failed, see search.csv", result.failures)
@@ -292,7 +292,8 @@ void run_optimize(const CommandLine& command_line) {
        {"search_seconds", search_seconds},
        {"termination", to_string(result.termination)},
        {"stages", stages_array(result)}});
-  print_result(task, result, search_seconds, best, baseline, gain);
+  print_result(task, result, configuration.choice("search.precision"), search_seconds, best,
+               baseline, gain);
   fmt::print("{}\n", record.closing_line());
 }
 

@@ -233,10 +233,11 @@ int truth_samples(const Configuration& configuration) {
                                                          : "simulation.pupil_samples");
 }
 
-SimulationOptions simulation_options_of(const Configuration& configuration) {
+SimulationOptions simulation_options_of(const Configuration& configuration,
+                                        std::string_view precision_key) {
   return {.truth = is_matched(configuration) ? TruthModel::matched : TruthModel::extended,
           .precision = choice_of<Precision>(
-              configuration, "simulation.precision",
+              configuration, precision_key,
               {{"double", Precision::double_precision}, {"single", Precision::single_precision}}),
           .noise_seed = configuration.seed("screens.seed")};
 }
@@ -253,9 +254,10 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
                            most);
 }
 
-Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes) {
+Simulation simulation_of(const Configuration& configuration, std::string_view precision_key,
+                         std::vector<std::string>& notes) {
   const Telescope telescope = telescope_of(configuration);
-  const SimulationOptions options = simulation_options_of(configuration);
+  const SimulationOptions options = simulation_options_of(configuration, precision_key);
   // Before the screens, which may take long.
   simulated_design(design_of(configuration), telescope, options.truth,
                    truth_samples(configuration));
@@ -270,7 +272,7 @@ Simulation verification_of(const Configuration& configuration) {
     throw InputError("verify.seed", seed,
                      "another seed than screens.seed, or the screens would not be fresh");
   }
-  SimulationOptions options = simulation_options_of(configuration);
+  SimulationOptions options = simulation_options_of(configuration, "simulation.precision");
   options.precision = Precision::double_precision;
   options.noise_seed = seed;
   if (factor > 1) options.truth = TruthModel::extended;

@@ -41,7 +41,10 @@ std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
 /// Samples of the true field across the pupil; a matched truth has the detector's.
 int truth_samples(const Configuration& configuration);
 
-SimulationOptions simulation_options_of(const Configuration& configuration);
+/// @param precision_key  the key of the reconstruction's precision: simulation.precision, or
+///                       search.precision for a search
+SimulationOptions simulation_options_of(const Configuration& configuration,
+                                        std::string_view precision_key);
 
 /// The wavefronts of the section screens, simulated or from a file, at the truth's samples.
 /// @param notes  gets a line where screens had to be resampled
@@ -50,8 +53,9 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
                                     std::vector<std::string>& notes,
                                     int most = std::numeric_limits<int>::max());
 
-/// The simulation of the sections screens and simulation; notes as above.
-Simulation simulation_of(const Configuration& configuration, std::vector<std::string>& notes);
+/// The simulation of the sections screens and simulation; precision and notes as above.
+Simulation simulation_of(const Configuration& configuration, std::string_view precision_key,
+                         std::vector<std::string>& notes);
 
 /// The simulation that results are verified in: verify.screens fresh screens of verify.seed, on a
 /// truth verify.truth_factor times as fine, in double precision. A matched truth that is refined no

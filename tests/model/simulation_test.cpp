@@ -162,15 +162,24 @@ TEST_P(SimulationTruth, ImagesKeptFromOtherDesignsChangeNothing) {
 }
 
 TEST_P(SimulationTruth, SinglePrecisionAgreesWithDouble) {
+  screens_ = turbulence(16);
   SimulationOptions single = options_;
   single.precision = Precision::single_precision;
-  const Performance expected = evaluate(design_, screens_, options_);
-  const Performance result = evaluate(design_, screens_, single);
-  for (std::size_t i = 0; i < screens_.size(); ++i) {
-    EXPECT_NEAR(result.screens[i].wavefront.residual_wfe,
-                expected.screens[i].wavefront.residual_wfe, 0.02e-9);
-    EXPECT_NEAR(result.screens[i].loops, expected.screens[i].loops, 1);
-    EXPECT_EQ(result.screens[i].captured_energy, expected.screens[i].captured_energy);
+  for (const StoppingRule rule : {StoppingRule::difference, StoppingRule::rms_change}) {
+    design_.reconstruction.stopping = rule;
+    const Performance expected = evaluate(design_, screens_, options_);
+    const Performance result = evaluate(design_, screens_, single);
+    for (std::size_t i = 0; i < screens_.size(); ++i) {
+      const ScreenPerformance& in_double = expected.screens[i];
+      const ScreenPerformance& in_single = result.screens[i];
+      EXPECT_EQ(in_single.captured_energy, in_double.captured_energy);
+      // A tie: the change crosses the tolerance right at a loop.
+      const double fraction =
+          std::abs(in_double.fractional_loops - std::round(in_double.fractional_loops));
+      if (fraction < 1e-3) continue;
+      EXPECT_EQ(in_single.loops, in_double.loops) << i;
+      EXPECT_NEAR(in_single.wavefront.residual_wfe, in_double.wavefront.residual_wfe, 0.02e-9);
+    }
   }
 }
 
