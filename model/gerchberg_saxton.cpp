@@ -58,10 +58,10 @@ template <class Real>
 Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>> images) const {
   assert(images.size() == design_.planes.size());
   const ReconstructionOptions& options = design_.reconstruction;
-  std::vector<Image<Real>> amplitudes;
+  std::vector<Image<Real>> measured;
   for (const Image<double>& image : images) {
     assert(image.rows() == design_.detector.width() && image.cols() == image.rows());
-    amplitudes.push_back(image.max(0.0).template cast<Real>().sqrt());
+    measured.push_back(image.template cast<Real>());
   }
 
   const RowRange all_rows{0, propagator_.samples()};
@@ -92,11 +92,11 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
       lit = wanted;
       result.fft_count += 2;
     };
-    for (std::size_t plane = 0; plane < amplitudes.size(); ++plane) {
+    for (std::size_t plane = 0; plane < measured.size(); ++plane) {
       hop(plane, plane_rows);
-      measure(field, amplitudes[plane], static_cast<Real>(options.relaxation(result.loops)));
+      measure(field, measured[plane], static_cast<Real>(options.relaxation(result.loops)));
     }
-    hop(amplitudes.size(), pupil_rows);
+    hop(measured.size(), pupil_rows);
     result.pupil_field = get_pupil(field);
 
     result.changes.push_back(loop_change.update(result.pupil_field) * length_per_radian);
@@ -136,11 +136,11 @@ Field<double> GerchbergSaxton<Real>::get_pupil(const Field<Real>& field) const {
 }
 
 template <class Real>
-void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& amplitude,
+void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& image,
                                     Real relaxation) const {
   const int width = propagator_.samples();
   const int oversampling = design_.reconstruction.oversampling;
-  const auto pixels = static_cast<int>(amplitude.rows());
+  const auto pixels = static_cast<int>(image.rows());
   const Eigen::Index border = propagator_.middle_rows(Eigen::Index(pixels) * oversampling).first;
   const LineTransform<Real>& transform = propagator_.row_transform();
 
@@ -157,7 +157,7 @@ void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& ampli
     rows.leftCols(border) *= outside_gain;
     rows.middleCols(width - border, border) *= outside_gain;
     replace_amplitudes(rows.data() + border, rows.cols(), oversampling, row_norm,
-                       amplitude.row(pixel_row).data(), relaxation, scratch.data(), pixels);
+                       image.row(pixel_row).data(), relaxation, scratch.data(), pixels);
     for (int row = 0; row < oversampling; ++row) {
       transform.forward(rows.row(row).data(), field.row(first + row).data());
     }

@@ -51,7 +51,7 @@ class GerchbergSaxton {
   /// The pupil from the transforms of its rows, 0 outside the aperture.
   Field<double> get_pupil(const Field<Real>& field) const;
   /// The amplitude step at one plane, on a field whose rows are Fourier transforms.
-  void measure(Field<Real>& field, const Image<Real>& amplitude, Real relaxation) const;
+  void measure(Field<Real>& field, const Image<Real>& image, Real relaxation) const;
 
   SensorDesign design_;
   double wavelength_;

@@ -1,6 +1,9 @@
 #include "model/line_kernels.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 // One build serves every x86-64 processor and still uses the wide registers of the newer ones.
@@ -22,10 +25,47 @@ namespace {
 template <class Real>
 using Lanes [[gnu::vector_size(16), gnu::may_alias]] = Real;
 
+/// From and to any address of a Real.
+template <class Real>
+NLCWFS_INLINE Lanes<Real> load(const Real* values) {
+  Lanes<Real> lanes;
+  std::memcpy(&lanes, values, sizeof(lanes));
+  return lanes;
+}
+template <class Real>
+NLCWFS_INLINE void store(const Lanes<Real>& lanes, Real* values) {
+  std::memcpy(values, &lanes, sizeof(lanes));
+}
+
 NLCWFS_INLINE Lanes<float> swap_parts(const Lanes<float>& z) {
   return Lanes<float>{z[1], z[0], z[3], z[2]};
 }
 NLCWFS_INLINE Lanes<double> swap_parts(const Lanes<double>& z) { return Lanes<double>{z[1], z[0]}; }
+
+/// The real and the imaginary parts of complex numbers a, b.
+NLCWFS_INLINE Lanes<float> real_parts(const Lanes<float>& a, const Lanes<float>& b) {
+  return Lanes<float>{a[0], a[2], b[0], b[2]};
+}
+NLCWFS_INLINE Lanes<double> real_parts(const Lanes<double>& a, const Lanes<double>& b) {
+  return Lanes<double>{a[0], b[0]};
+}
+NLCWFS_INLINE Lanes<float> imaginary_parts(const Lanes<float>& a, const Lanes<float>& b) {
+  return Lanes<float>{a[1], a[3], b[1], b[3]};
+}
+NLCWFS_INLINE Lanes<double> imaginary_parts(const Lanes<double>& a, const Lanes<double>& b) {
+  return Lanes<double>{a[1], b[1]};
+}
+/// The factors of the complex numbers a and of the complex numbers b, each twice.
+NLCWFS_INLINE Lanes<float> twice_first(const Lanes<float>& x) {
+  return Lanes<float>{x[0], x[0], x[1], x[1]};
+}
+NLCWFS_INLINE Lanes<double> twice_first(const Lanes<double>& x) {
+  return Lanes<double>{x[0], x[0]};
+}
+NLCWFS_INLINE Lanes<float> twice_last(const Lanes<float>& x) {
+  return Lanes<float>{x[2], x[2], x[3], x[3]};
+}
+NLCWFS_INLINE Lanes<double> twice_last(const Lanes<double>& x) { return Lanes<double>{x[1], x[1]}; }
 
 /// A product of complex numbers: std::complex's also handles infinities, which keeps compilers from
 /// vectorizing it.
@@ -53,11 +93,9 @@ NLCWFS_INLINE void multiply(const std::complex<Real>* in, const LineFactors<Real
   const int length = 2 * factors.length();
   int i = 0;
   for (; i + reals <= length; i += reals) {
-    const auto value = *reinterpret_cast<const Vector*>(values + i);
-    const Vector scaled = product<Real>(value, factor_real, factor_imaginary);
-    *reinterpret_cast<Vector*>(products + i) =
-        product<Real>(scaled, *reinterpret_cast<const Vector*>(factors.real() + i),
-                      *reinterpret_cast<const Vector*>(factors.imaginary() + i));
+    const Vector scaled = product<Real>(load(values + i), factor_real, factor_imaginary);
+    store<Real>(product<Real>(scaled, load(factors.real() + i), load(factors.imaginary() + i)),
+                products + i);
   }
   for (; i < length; i += 2) {  // the last of an odd number in single precision
     const Real re = values[i] * factor.real() - values[i + 1] * factor.imag();
@@ -114,40 +152,65 @@ NLCWFS_INLINE void transpose_tiles(const std::complex<Real>* in, std::ptrdiff_t 
   }
 }
 
-/// The factor of the field in a pixel whose mean intensity, before `gain`, is `intensity`.
+/// The amplitude step's factor for a field whose pixel has a given mean intensity.
 template <class Real>
-NLCWFS_INLINE Real amplitude_scale(Real intensity, Real gain, Real amplitude, Real relaxation) {
-  // Else rounding errors would choose the phase of all the light that is measured there.
-  constexpr Real dark = Real(64) * std::numeric_limits<Real>::epsilon();
-  const Real estimated = gain * std::sqrt(intensity);
-  const Real wanted = amplitude + relaxation * (amplitude - estimated);
-  return estimated > dark ? gain * wanted / estimated : Real(0);
-}
+struct AmplitudeStep {
+  AmplitudeStep(Real field_gain, Real relaxation)
+      : wanted(Real(1) + relaxation), estimated(relaxation * field_gain) {
+    const Real amplitude = Real(64) * std::numeric_limits<Real>::epsilon() / field_gain;
+    dark = amplitude * amplitude;
+  }
+
+  NLCWFS_INLINE Real operator()(Real intensity, Real measured) const {
+    const Real lit = wanted * std::sqrt(std::max(measured, Real(0)) / intensity) - estimated;
+    return intensity > dark ? lit : Real(0);
+  }
+  NLCWFS_INLINE Lanes<Real> operator()(const Lanes<Real>& intensity,
+                                       const Lanes<Real>& measured) const {
+    const Lanes<Real> none{};
+    Lanes<Real> ratio = (measured > none ? measured : none) / intensity;
+    for (std::size_t i = 0; i < sizeof(ratio) / sizeof(Real); ++i) ratio[i] = std::sqrt(ratio[i]);
+    const Lanes<Real> lit = wanted * ratio - estimated;
+    return intensity > dark ? lit : none;
+  }
+
+  Real wanted;
+  Real estimated;
+  /// Of an intensity, before the gain. Else rounding errors would choose the phase of all the light
+  /// that is measured there.
+  Real dark;
+};
 
 /// Each sample is a pixel.
 template <class Real>
-NLCWFS_INLINE void replace_samples(Real* values, Real gain, const Real* amplitude, Real relaxation,
-                                   Real* scale, int pixels) {
-  for (int pixel = 0; pixel < pixels; ++pixel) {
-    const Real re = values[2 * pixel];
-    const Real im = values[2 * pixel + 1];
-    scale[pixel] = re * re + im * im;
+NLCWFS_INLINE void replace_samples(Real* values, const AmplitudeStep<Real>& step,
+                                   const Real* measured, int pixels) {
+  using Vector = Lanes<Real>;
+  constexpr int count = sizeof(Vector) / sizeof(Real);
+  int pixel = 0;
+  for (; pixel + count <= pixels; pixel += count) {
+    const Vector a = load(values + 2 * pixel);
+    const Vector b = load(values + 2 * pixel + count);
+    const Vector re = real_parts(a, b);
+    const Vector im = imaginary_parts(a, b);
+    const Vector factor = step(re * re + im * im, load(measured + pixel));
+    store<Real>(a * twice_first(factor), values + 2 * pixel);
+    store<Real>(b * twice_last(factor), values + 2 * pixel + count);
   }
-  // Loops of their own, in which the square roots and divisions fill vector registers.
-  for (int pixel = 0; pixel < pixels; ++pixel) {
-    scale[pixel] = amplitude_scale(scale[pixel], gain, amplitude[pixel], relaxation);
-  }
-  for (int pixel = 0; pixel < pixels; ++pixel) {
-    values[2 * pixel] *= scale[pixel];
-    values[2 * pixel + 1] *= scale[pixel];
+  for (; pixel < pixels; ++pixel) {
+    Real& re = values[2 * pixel];
+    Real& im = values[2 * pixel + 1];
+    const Real factor = step(re * re + im * im, measured[pixel]);
+    re *= factor;
+    im *= factor;
   }
 }
 
 /// Each pixel is samples x samples samples.
 template <class Real>
 NLCWFS_INLINE void replace_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int samples,
-                                  Real gain, const Real* amplitude, Real relaxation, Real* scale,
-                                  int pixels) {
+                                  const AmplitudeStep<Real>& step, const Real* measured,
+                                  Real* scale, int pixels) {
   for (int pixel = 0; pixel < pixels; ++pixel) scale[pixel] = Real(0);
   for (int row = 0; row < samples; ++row) {
     const auto* values = reinterpret_cast<const Real*>(field + row * stride);
@@ -161,7 +224,7 @@ NLCWFS_INLINE void replace_pixels(std::complex<Real>* field, std::ptrdiff_t stri
   }
   const Real per_sample = Real(1) / static_cast<Real>(samples * samples);
   for (int pixel = 0; pixel < pixels; ++pixel) {
-    scale[pixel] = amplitude_scale(scale[pixel] * per_sample, gain, amplitude[pixel], relaxation);
+    scale[pixel] = step(scale[pixel] * per_sample, measured[pixel]);
   }
   for (int row = 0; row < samples; ++row) {
     auto* values = reinterpret_cast<Real*>(field + row * stride);
@@ -175,12 +238,13 @@ NLCWFS_INLINE void replace_pixels(std::complex<Real>* field, std::ptrdiff_t stri
 
 template <class Real>
 NLCWFS_INLINE void replace_in_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int samples,
-                                     Real gain, const Real* amplitude, Real relaxation,
+                                     Real gain, const Real* measured, Real relaxation,
                                      Real* scratch, int pixels) {
+  const AmplitudeStep<Real> step(gain, relaxation);
   if (samples == 1) {
-    replace_samples(reinterpret_cast<Real*>(field), gain, amplitude, relaxation, scratch, pixels);
+    replace_samples(reinterpret_cast<Real*>(field), step, measured, pixels);
   } else {
-    replace_pixels(field, stride, samples, gain, amplitude, relaxation, scratch, pixels);
+    replace_pixels(field, stride, samples, step, measured, scratch, pixels);
   }
 }
 
@@ -218,9 +282,9 @@ NLCWFS_MULTIVERSION void transpose(const std::complex<double>* in, std::ptrdiff_
 }
 
 NLCWFS_MULTIVERSION void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride,
-                                            int samples, double gain, const double* amplitude,
+                                            int samples, double gain, const double* measured,
                                             double relaxation, double* scratch, int pixels) {
-  replace_in_pixels(field, stride, samples, gain, amplitude, relaxation, scratch, pixels);
+  replace_in_pixels(field, stride, samples, gain, measured, relaxation, scratch, pixels);
 }
 
 NLCWFS_MULTIVERSION void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride,
@@ -230,9 +294,9 @@ NLCWFS_MULTIVERSION void transpose(const std::complex<float>* in, std::ptrdiff_t
 }
 
 NLCWFS_MULTIVERSION void replace_amplitudes(std::complex<float>* field, std::ptrdiff_t stride,
-                                            int samples, float gain, const float* amplitude,
+                                            int samples, float gain, const float* measured,
                                             float relaxation, float* scratch, int pixels) {
-  replace_in_pixels(field, stride, samples, gain, amplitude, relaxation, scratch, pixels);
+  replace_in_pixels(field, stride, samples, gain, measured, relaxation, scratch, pixels);
 }
 
 }  // namespace nlcwfs

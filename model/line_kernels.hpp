@@ -44,19 +44,19 @@ void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::com
                std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns);
 
 /// The amplitude step for one row of detector pixels, each of samples x samples field samples.
-/// With A a pixel's measured amplitude and a the field's there (the root of its mean intensity),
-/// the field is scaled by (A + relaxation (A - a)) / a. A dark pixel has no phase to keep and
-/// becomes 0: one where a is below 64 rounding errors of a field of order 1, such as transforms
-/// leave in the dark surround of the pupil.
-/// @param field      the first of `samples` rows of pixels * samples values
-/// @param stride     values from one row to the next
-/// @param gain       factor to apply to the field first, such as a transform's norm
-/// @param amplitude  A of each pixel
-/// @param scratch    room for `pixels` values
+/// With A the root of a pixel's measured intensity and a the field's amplitude there (the root of
+/// its mean intensity), the field is scaled by (A + relaxation (A - a)) / a. A dark pixel has no
+/// phase to keep and becomes 0: one where a is below 64 rounding errors of a field of order 1, such
+/// as transforms leave in the dark surround of the pupil.
+/// @param field     the first of `samples` rows of pixels * samples values
+/// @param stride    values from one row to the next
+/// @param gain      factor to apply to the field first, such as a transform's norm
+/// @param measured  each pixel's intensity; below 0 counts as 0
+/// @param scratch   room for `pixels` values
 void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride, int samples,
-                        double gain, const double* amplitude, double relaxation, double* scratch,
+                        double gain, const double* measured, double relaxation, double* scratch,
                         int pixels);
 void replace_amplitudes(std::complex<float>* field, std::ptrdiff_t stride, int samples, float gain,
-                        const float* amplitude, float relaxation, float* scratch, int pixels);
+                        const float* measured, float relaxation, float* scratch, int pixels);
 
 }  // namespace nlcwfs

@@ -87,20 +87,21 @@ TYPED_TEST(LineKernels, ReplaceAmplitudesIsTheRelaxedProjectionOfEachPixel) {
         const Real gain = Real(0.25);
         Field<Real> field =
             this->random_line(samples * stride).reshaped(stride, samples).transpose();
-        Eigen::ArrayX<Real> amplitude(pixels);
-        for (Real& value : amplitude) value = this->random() + Real(1);
+        Eigen::ArrayX<Real> measured(pixels);
+        for (Real& value : measured) value = this->random() + Real(1);
         // A dark pixel, and one that is measured as dark.
         if (pixels > 2) field.middleCols(samples, samples).setZero();
-        if (pixels > 2) amplitude[2] = Real(0);
+        if (pixels > 2) measured[2] = Real(-0.1);  // noise may
 
         const Field<Real> before = field;
         Eigen::ArrayX<Real> scratch(pixels);
-        replace_amplitudes(field.data(), stride, samples, gain, amplitude.data(), relaxation,
+        replace_amplitudes(field.data(), stride, samples, gain, measured.data(), relaxation,
                            scratch.data(), pixels);
         for (int pixel = 0; pixel < pixels; ++pixel) {
           const Field<Real> old = gain * before.middleCols(pixel * samples, samples);
           const Real estimated = std::sqrt(old.abs2().mean());
-          const Real wanted = amplitude[pixel] + relaxation * (amplitude[pixel] - estimated);
+          const Real amplitude = std::sqrt(std::max(measured[pixel], Real(0)));
+          const Real wanted = amplitude + relaxation * (amplitude - estimated);
           const Field<Real> expected =
               estimated > Real(0) ? Field<Real>(old * (wanted / estimated)) : old;
           const Field<Real> replaced = field.middleCols(pixel * samples, samples);
@@ -116,9 +117,9 @@ TYPED_TEST(LineKernels, RoundingErrorsAreDark) {
   using Real = TypeParam;
   const Real epsilon = std::numeric_limits<Real>::epsilon();
   std::vector<std::complex<Real>> field{{20 * epsilon, -20 * epsilon}, {1000 * epsilon, 0}, {0, 0}};
-  const std::vector<Real> amplitude{1, 1, 1};
+  const std::vector<Real> measured{1, 1, 1};
   std::vector<Real> scratch(3);
-  replace_amplitudes(field.data(), 3, 1, Real(1), amplitude.data(), Real(0), scratch.data(), 3);
+  replace_amplitudes(field.data(), 3, 1, Real(1), measured.data(), Real(0), scratch.data(), 3);
   EXPECT_EQ(field[0], std::complex<Real>(0));
   EXPECT_NEAR(field[1].real(), 1.0, double(this->tolerance_));
   EXPECT_EQ(field[2], std::complex<Real>(0));
