@@ -43,7 +43,9 @@ GerchbergSaxton<Real>::GerchbergSaxton(const Telescope& telescope, const SensorD
       mask_(pupil_mask(design.pupil_samples(), telescope.central_obscuration)),
       propagator_(design.grid_width(), pitch_, telescope.wavelength),
       unwrapper_(mask_, design.reconstruction.unwrapping),
-      fields_([samples = propagator_.samples()] { return padded_lines<Real>(samples, samples); }) {
+      workspaces_([samples = propagator_.samples(), planes = design.planes.size()] {
+        return Workspace{padded_lines<Real>(samples, samples), std::vector<Image<Real>>(planes)};
+      }) {
   double position = 0.0;
   const auto hop_to = [&](double next) {
     hops_.emplace_back();
@@ -58,10 +60,11 @@ template <class Real>
 Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>> images) const {
   assert(images.size() == design_.planes.size());
   const ReconstructionOptions& options = design_.reconstruction;
-  std::vector<Image<Real>> measured;
-  for (const Image<double>& image : images) {
-    assert(image.rows() == design_.detector.width() && image.cols() == image.rows());
-    measured.push_back(image.template cast<Real>());
+  auto& [field, measured] = workspaces_.local();
+  for (std::size_t plane = 0; plane < images.size(); ++plane) {
+    assert(images[plane].rows() == design_.detector.width());
+    assert(images[plane].cols() == design_.detector.width());
+    measured[plane] = images[plane].template cast<Real>();
   }
 
   const RowRange all_rows{0, propagator_.samples()};
@@ -77,7 +80,6 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
   LoopChange loop_change(options.stopping, mask_, unwrapper_, result.pupil_field);
   // Between the planes the field's rows are Fourier transforms: each plane transforms a row back,
   // replaces its amplitudes and transforms it again while it is in cache.
-  Field<Real>& field = fields_.local();
   while (!result.converged && result.loops < options.max_loops) {
     ++result.loops;
     RowRange lit = pupil_rows;

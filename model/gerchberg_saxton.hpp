@@ -61,9 +61,13 @@ class GerchbergSaxton {
   PhaseUnwrapper unwrapper_;
   std::vector<std::optional<LineFactors<Real>>> hops_;  ///< to each plane and back to the pupil;
                                                         ///< none where the planes coincide
-  /// Each thread's field between the planes. Made once: fresh memory for each reconstruction would
-  /// cost a tenth of its time.
-  mutable tbb::enumerable_thread_specific<Field<Real>> fields_;
+  /// What each thread works on. Made once: fresh memory for each reconstruction would cost a tenth
+  /// of its time.
+  struct Workspace {
+    Field<Real> field;                  ///< between the planes
+    std::vector<Image<Real>> measured;  ///< the images, in visiting order
+  };
+  mutable tbb::enumerable_thread_specific<Workspace> workspaces_;
 };
 
 }  // namespace nlcwfs

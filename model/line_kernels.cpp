@@ -23,57 +23,63 @@ namespace {
 /// A vector register that every processor has: two complex numbers in single precision, one in
 /// double. Wider ones are no faster on lines that are aligned to 16 bytes.
 template <class Real>
-using Lanes [[gnu::vector_size(16), gnu::may_alias]] = Real;
+struct Register;
+template <>
+struct Register<float> {
+  using Aligned [[gnu::vector_size(16), gnu::may_alias]] = float;
+  using Anywhere [[gnu::vector_size(16), gnu::may_alias, gnu::aligned(sizeof(float))]] = float;
+};
+template <>
+struct Register<double> {
+  using Aligned [[gnu::vector_size(16), gnu::may_alias]] = double;
+  using Anywhere [[gnu::vector_size(16), gnu::may_alias, gnu::aligned(sizeof(double))]] = double;
+};
+template <class Real>
+using Lanes = typename Register<Real>::Aligned;
 
-/// From and to any address of a Real.
 template <class Real>
 NLCWFS_INLINE Lanes<Real> load(const Real* values) {
-  Lanes<Real> lanes;
-  std::memcpy(&lanes, values, sizeof(lanes));
-  return lanes;
+  return *reinterpret_cast<const typename Register<Real>::Anywhere*>(values);
 }
 template <class Real>
-NLCWFS_INLINE void store(const Lanes<Real>& lanes, Real* values) {
-  std::memcpy(values, &lanes, sizeof(lanes));
+NLCWFS_INLINE void store(Lanes<Real> lanes, Real* values) {
+  *reinterpret_cast<typename Register<Real>::Anywhere*>(values) = lanes;
 }
 
-NLCWFS_INLINE Lanes<float> swap_parts(const Lanes<float>& z) {
+NLCWFS_INLINE Lanes<float> swap_parts(Lanes<float> z) {
   return Lanes<float>{z[1], z[0], z[3], z[2]};
 }
-NLCWFS_INLINE Lanes<double> swap_parts(const Lanes<double>& z) { return Lanes<double>{z[1], z[0]}; }
+NLCWFS_INLINE Lanes<double> swap_parts(Lanes<double> z) { return Lanes<double>{z[1], z[0]}; }
 
 /// The real and the imaginary parts of complex numbers a, b.
-NLCWFS_INLINE Lanes<float> real_parts(const Lanes<float>& a, const Lanes<float>& b) {
+NLCWFS_INLINE Lanes<float> real_parts(Lanes<float> a, Lanes<float> b) {
   return Lanes<float>{a[0], a[2], b[0], b[2]};
 }
-NLCWFS_INLINE Lanes<double> real_parts(const Lanes<double>& a, const Lanes<double>& b) {
+NLCWFS_INLINE Lanes<double> real_parts(Lanes<double> a, Lanes<double> b) {
   return Lanes<double>{a[0], b[0]};
 }
-NLCWFS_INLINE Lanes<float> imaginary_parts(const Lanes<float>& a, const Lanes<float>& b) {
+NLCWFS_INLINE Lanes<float> imaginary_parts(Lanes<float> a, Lanes<float> b) {
   return Lanes<float>{a[1], a[3], b[1], b[3]};
 }
-NLCWFS_INLINE Lanes<double> imaginary_parts(const Lanes<double>& a, const Lanes<double>& b) {
+NLCWFS_INLINE Lanes<double> imaginary_parts(Lanes<double> a, Lanes<double> b) {
   return Lanes<double>{a[1], b[1]};
 }
 /// The factors of the complex numbers a and of the complex numbers b, each twice.
-NLCWFS_INLINE Lanes<float> twice_first(const Lanes<float>& x) {
+NLCWFS_INLINE Lanes<float> twice_first(Lanes<float> x) {
   return Lanes<float>{x[0], x[0], x[1], x[1]};
 }
-NLCWFS_INLINE Lanes<double> twice_first(const Lanes<double>& x) {
-  return Lanes<double>{x[0], x[0]};
-}
-NLCWFS_INLINE Lanes<float> twice_last(const Lanes<float>& x) {
+NLCWFS_INLINE Lanes<double> twice_first(Lanes<double> x) { return Lanes<double>{x[0], x[0]}; }
+NLCWFS_INLINE Lanes<float> twice_last(Lanes<float> x) {
   return Lanes<float>{x[2], x[2], x[3], x[3]};
 }
-NLCWFS_INLINE Lanes<double> twice_last(const Lanes<double>& x) { return Lanes<double>{x[1], x[1]}; }
+NLCWFS_INLINE Lanes<double> twice_last(Lanes<double> x) { return Lanes<double>{x[1], x[1]}; }
 
 /// A product of complex numbers: std::complex's also handles infinities, which keeps compilers from
 /// vectorizing it.
 /// @param real       re re ... of the other factors
 /// @param imaginary  -im im ... of the other factors
 template <class Real>
-NLCWFS_INLINE Lanes<Real> product(const Lanes<Real>& z, const Lanes<Real>& real,
-                                  const Lanes<Real>& imaginary) {
+NLCWFS_INLINE Lanes<Real> product(Lanes<Real> z, Lanes<Real> real, Lanes<Real> imaginary) {
   return z * real + swap_parts(z) * imaginary;
 }
 
@@ -165,8 +171,7 @@ struct AmplitudeStep {
     const Real lit = wanted * std::sqrt(std::max(measured, Real(0)) / intensity) - estimated;
     return intensity > dark ? lit : Real(0);
   }
-  NLCWFS_INLINE Lanes<Real> operator()(const Lanes<Real>& intensity,
-                                       const Lanes<Real>& measured) const {
+  NLCWFS_INLINE Lanes<Real> operator()(Lanes<Real> intensity, Lanes<Real> measured) const {
     const Lanes<Real> none{};
     Lanes<Real> ratio = (measured > none ? measured : none) / intensity;
     for (std::size_t i = 0; i < sizeof(ratio) / sizeof(Real); ++i) ratio[i] = std::sqrt(ratio[i]);
