@@ -14,6 +14,7 @@ namespace nlcwfs {
 template <class Real>
 class LineFactors {
  public:
+  LineFactors() = default;  ///< none
   explicit LineFactors(const Eigen::ArrayXcd& factors);
 
   int length() const { return static_cast<int>(real_.size()) / 2; }

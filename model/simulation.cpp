@@ -15,6 +15,7 @@
 #include <utility>
 
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 
 namespace nlcwfs {
 namespace {
@@ -139,9 +140,13 @@ Performance run_all(const Telescope& telescope, const SensorDesign& design,
   const Experiment<Real> experiment(telescope, design, options, truth_mask, images);
   Performance performance;
   performance.screens.resize(screens.size());
-  tbb::parallel_for(std::size_t{0}, screens.size(), [&](std::size_t screen) {
-    performance.screens[screen] = experiment.run(screens[screen], screen);
-  });
+  // One screen at a time: they take different numbers of loops.
+  tbb::parallel_for(
+      std::size_t{0}, screens.size(),
+      [&](std::size_t screen) {
+        performance.screens[screen] = experiment.run(screens[screen], screen);
+      },
+      tbb::simple_partitioner());
   return performance;
 }
 

@@ -8,6 +8,7 @@
 #include <cassert>
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 namespace nlcwfs {
 namespace {
@@ -18,12 +19,13 @@ class ExtendedLight final : public TrueLight {
       : samples_per_pixel_(pupil_samples / design.detector.pupil_pixels),
         propagator_(pupil_samples, grid_width(design.detector.window, pupil_samples),
                     telescope.diameter / pupil_samples, telescope.wavelength),
+        transfer_functions_(design.planes.size()),
         buffers_([this] {
           return Buffers{propagator_.working_field(), propagator_.working_field()};
         }) {
-    for (const double plane : design.planes) {
-      transfer_functions_.push_back(propagator_.transfer_function(plane));
-    }
+    tbb::parallel_for(std::size_t{0}, design.planes.size(), [&](std::size_t plane) {
+      transfer_functions_[plane] = propagator_.transfer_function(design.planes[plane]);
+    });
   }
 
   std::vector<Image<double>> images(const Field<double>& pupil,
