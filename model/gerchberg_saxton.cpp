@@ -60,7 +60,9 @@ template <class Real>
 Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>> images) const {
   assert(images.size() == design_.planes.size());
   const ReconstructionOptions& options = design_.reconstruction;
-  auto& [field, measured] = workspaces_.local();
+  Workspace& workspace = workspaces_.local();
+  Field<Real>& field = workspace.field;
+  std::vector<Image<Real>>& measured = workspace.measured;
   for (std::size_t plane = 0; plane < images.size(); ++plane) {
     assert(images[plane].rows() == design_.detector.width());
     assert(images[plane].cols() == design_.detector.width());
@@ -83,10 +85,8 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
   while (!result.converged && result.loops < options.max_loops) {
     ++result.loops;
     RowRange lit = pupil_rows;
-    if (!hops_.front()) {  // no hop overwrites what the loop before left
-      field.setZero();
-      lit = all_rows;
-    }
+    // Where no hop overwrites what the loop before left.
+    if (!hops_.front()) field.setZero();
     propagator_.transform_middle_rows(result.pupil_field, field);
     const auto hop = [&](std::size_t index, RowRange wanted) {
       if (!hops_[index]) return;

@@ -39,6 +39,7 @@ class GerchbergSaxton {
  public:
   GerchbergSaxton(const Telescope& telescope, const SensorDesign& design);
 
+  /// May be called from many threads.
   /// @param images  one per plane in visiting order, detector width x width, mean intensity per
   ///                pixel in units of the unaberrated pupil's; below 0 counts as 0
   Reconstruction reconstruct(std::span<const Image<double>> images) const;
@@ -62,7 +63,8 @@ class GerchbergSaxton {
   std::vector<std::optional<LineFactors<Real>>> hops_;  ///< to each plane and back to the pupil;
                                                         ///< none where the planes coincide
   /// What each thread works on. Made once: fresh memory for each reconstruction would cost a tenth
-  /// of its time.
+  /// of its time. A reconstruction must not start parallel work: while a thread waited for that, it
+  /// might begin another reconstruction here.
   struct Workspace {
     Field<Real> field;                  ///< between the planes
     std::vector<Image<Real>> measured;  ///< the images, in visiting order

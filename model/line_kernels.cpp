@@ -6,22 +6,11 @@
 #include <cstring>
 #include <limits>
 
-// One build serves every x86-64 processor and still uses the wide registers of the newer ones.
-// Sanitizers run before the loader has resolved such functions, so they do without.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define NLCWFS_MULTIVERSION __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define NLCWFS_MULTIVERSION
-#endif
-// Into each version of its caller, so that it is compiled for that version's instructions.
-#define NLCWFS_INLINE inline __attribute__((always_inline))
-
 namespace nlcwfs {
 namespace {
 
 /// A vector register that every processor has: two complex numbers in single precision, one in
-/// double. Wider ones are no faster on lines that are aligned to 16 bytes.
+/// double. Wider ones, which newer processors have, are no faster here.
 template <class Real>
 struct Register;
 template <>
@@ -38,54 +27,46 @@ template <class Real>
 using Lanes = typename Register<Real>::Aligned;
 
 template <class Real>
-NLCWFS_INLINE Lanes<Real> load(const Real* values) {
+Lanes<Real> load(const Real* values) {
   return *reinterpret_cast<const typename Register<Real>::Anywhere*>(values);
 }
 template <class Real>
-NLCWFS_INLINE void store(Lanes<Real> lanes, Real* values) {
+void store(Lanes<Real> lanes, Real* values) {
   *reinterpret_cast<typename Register<Real>::Anywhere*>(values) = lanes;
 }
 
-NLCWFS_INLINE Lanes<float> swap_parts(Lanes<float> z) {
-  return Lanes<float>{z[1], z[0], z[3], z[2]};
-}
-NLCWFS_INLINE Lanes<double> swap_parts(Lanes<double> z) { return Lanes<double>{z[1], z[0]}; }
+Lanes<float> swap_parts(Lanes<float> z) { return Lanes<float>{z[1], z[0], z[3], z[2]}; }
+Lanes<double> swap_parts(Lanes<double> z) { return Lanes<double>{z[1], z[0]}; }
 
 /// The real and the imaginary parts of complex numbers a, b.
-NLCWFS_INLINE Lanes<float> real_parts(Lanes<float> a, Lanes<float> b) {
+Lanes<float> real_parts(Lanes<float> a, Lanes<float> b) {
   return Lanes<float>{a[0], a[2], b[0], b[2]};
 }
-NLCWFS_INLINE Lanes<double> real_parts(Lanes<double> a, Lanes<double> b) {
-  return Lanes<double>{a[0], b[0]};
-}
-NLCWFS_INLINE Lanes<float> imaginary_parts(Lanes<float> a, Lanes<float> b) {
+Lanes<double> real_parts(Lanes<double> a, Lanes<double> b) { return Lanes<double>{a[0], b[0]}; }
+Lanes<float> imaginary_parts(Lanes<float> a, Lanes<float> b) {
   return Lanes<float>{a[1], a[3], b[1], b[3]};
 }
-NLCWFS_INLINE Lanes<double> imaginary_parts(Lanes<double> a, Lanes<double> b) {
+Lanes<double> imaginary_parts(Lanes<double> a, Lanes<double> b) {
   return Lanes<double>{a[1], b[1]};
 }
 /// The factors of the complex numbers a and of the complex numbers b, each twice.
-NLCWFS_INLINE Lanes<float> twice_first(Lanes<float> x) {
-  return Lanes<float>{x[0], x[0], x[1], x[1]};
-}
-NLCWFS_INLINE Lanes<double> twice_first(Lanes<double> x) { return Lanes<double>{x[0], x[0]}; }
-NLCWFS_INLINE Lanes<float> twice_last(Lanes<float> x) {
-  return Lanes<float>{x[2], x[2], x[3], x[3]};
-}
-NLCWFS_INLINE Lanes<double> twice_last(Lanes<double> x) { return Lanes<double>{x[1], x[1]}; }
+Lanes<float> twice_first(Lanes<float> x) { return Lanes<float>{x[0], x[0], x[1], x[1]}; }
+Lanes<double> twice_first(Lanes<double> x) { return Lanes<double>{x[0], x[0]}; }
+Lanes<float> twice_last(Lanes<float> x) { return Lanes<float>{x[2], x[2], x[3], x[3]}; }
+Lanes<double> twice_last(Lanes<double> x) { return Lanes<double>{x[1], x[1]}; }
 
 /// A product of complex numbers: std::complex's also handles infinities, which keeps compilers from
 /// vectorizing it.
 /// @param real       re re ... of the other factors
 /// @param imaginary  -im im ... of the other factors
 template <class Real>
-NLCWFS_INLINE Lanes<Real> product(Lanes<Real> z, Lanes<Real> real, Lanes<Real> imaginary) {
+Lanes<Real> product(Lanes<Real> z, Lanes<Real> real, Lanes<Real> imaginary) {
   return z * real + swap_parts(z) * imaginary;
 }
 
 template <class Real>
-NLCWFS_INLINE void multiply(const std::complex<Real>* in, const LineFactors<Real>& factors,
-                            std::complex<Real> factor, std::complex<Real>* out) {
+void multiply(const std::complex<Real>* in, const LineFactors<Real>& factors,
+              std::complex<Real> factor, std::complex<Real>* out) {
   using Vector = Lanes<Real>;
   constexpr int reals = sizeof(Vector) / sizeof(Real);
   Vector factor_real;
@@ -126,9 +107,9 @@ struct Whole<double> {
 /// By square tiles: their rows and columns are short runs of neighbouring values, which move
 /// through vector registers.
 template <class Real>
-NLCWFS_INLINE void transpose_tiles(const std::complex<Real>* in, std::ptrdiff_t in_stride,
-                                   std::complex<Real>* out, std::ptrdiff_t out_stride,
-                                   std::ptrdiff_t rows, std::ptrdiff_t columns) {
+void transpose_tiles(const std::complex<Real>* in, std::ptrdiff_t in_stride,
+                     std::complex<Real>* out, std::ptrdiff_t out_stride, std::ptrdiff_t rows,
+                     std::ptrdiff_t columns) {
   constexpr std::ptrdiff_t side = 4;
   using Value = typename Whole<Real>::Value;
   const std::ptrdiff_t whole_rows = rows - rows % side;
@@ -167,11 +148,11 @@ struct AmplitudeStep {
     dark = amplitude * amplitude;
   }
 
-  NLCWFS_INLINE Real operator()(Real intensity, Real measured) const {
+  Real operator()(Real intensity, Real measured) const {
     const Real lit = wanted * std::sqrt(std::max(measured, Real(0)) / intensity) - estimated;
     return intensity > dark ? lit : Real(0);
   }
-  NLCWFS_INLINE Lanes<Real> operator()(Lanes<Real> intensity, Lanes<Real> measured) const {
+  Lanes<Real> operator()(Lanes<Real> intensity, Lanes<Real> measured) const {
     const Lanes<Real> none{};
     Lanes<Real> ratio = (measured > none ? measured : none) / intensity;
     for (std::size_t i = 0; i < sizeof(ratio) / sizeof(Real); ++i) ratio[i] = std::sqrt(ratio[i]);
@@ -188,8 +169,8 @@ struct AmplitudeStep {
 
 /// Each sample is a pixel.
 template <class Real>
-NLCWFS_INLINE void replace_samples(Real* values, const AmplitudeStep<Real>& step,
-                                   const Real* measured, int pixels) {
+void replace_samples(Real* values, const AmplitudeStep<Real>& step, const Real* measured,
+                     int pixels) {
   using Vector = Lanes<Real>;
   constexpr int count = sizeof(Vector) / sizeof(Real);
   int pixel = 0;
@@ -213,9 +194,9 @@ NLCWFS_INLINE void replace_samples(Real* values, const AmplitudeStep<Real>& step
 
 /// Each pixel is samples x samples samples.
 template <class Real>
-NLCWFS_INLINE void replace_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int samples,
-                                  const AmplitudeStep<Real>& step, const Real* measured,
-                                  Real* scale, int pixels) {
+void replace_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int samples,
+                    const AmplitudeStep<Real>& step, const Real* measured, Real* scale,
+                    int pixels) {
   for (int pixel = 0; pixel < pixels; ++pixel) scale[pixel] = Real(0);
   for (int row = 0; row < samples; ++row) {
     const auto* values = reinterpret_cast<const Real*>(field + row * stride);
@@ -242,9 +223,8 @@ NLCWFS_INLINE void replace_pixels(std::complex<Real>* field, std::ptrdiff_t stri
 }
 
 template <class Real>
-NLCWFS_INLINE void replace_in_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int samples,
-                                     Real gain, const Real* measured, Real relaxation,
-                                     Real* scratch, int pixels) {
+void replace_in_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int samples, Real gain,
+                       const Real* measured, Real relaxation, Real* scratch, int pixels) {
   const AmplitudeStep<Real> step(gain, relaxation);
   if (samples == 1) {
     replace_samples(reinterpret_cast<Real*>(field), step, measured, pixels);
@@ -268,39 +248,34 @@ LineFactors<Real>::LineFactors(const Eigen::ArrayXcd& factors)
 template class LineFactors<float>;
 template class LineFactors<double>;
 
-NLCWFS_MULTIVERSION void multiply_line(const std::complex<double>* in,
-                                       const LineFactors<double>& factors,
-                                       std::complex<double> factor, std::complex<double>* out) {
+void multiply_line(const std::complex<double>* in, const LineFactors<double>& factors,
+                   std::complex<double> factor, std::complex<double>* out) {
   multiply(in, factors, factor, out);
 }
 
-NLCWFS_MULTIVERSION void multiply_line(const std::complex<float>* in,
-                                       const LineFactors<float>& factors,
-                                       std::complex<float> factor, std::complex<float>* out) {
+void multiply_line(const std::complex<float>* in, const LineFactors<float>& factors,
+                   std::complex<float> factor, std::complex<float>* out) {
   multiply(in, factors, factor, out);
 }
 
-NLCWFS_MULTIVERSION void transpose(const std::complex<double>* in, std::ptrdiff_t in_stride,
-                                   std::complex<double>* out, std::ptrdiff_t out_stride,
-                                   std::ptrdiff_t rows, std::ptrdiff_t columns) {
+void transpose(const std::complex<double>* in, std::ptrdiff_t in_stride, std::complex<double>* out,
+               std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns) {
   transpose_tiles(in, in_stride, out, out_stride, rows, columns);
 }
 
-NLCWFS_MULTIVERSION void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride,
-                                            int samples, double gain, const double* measured,
-                                            double relaxation, double* scratch, int pixels) {
+void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride, int samples,
+                        double gain, const double* measured, double relaxation, double* scratch,
+                        int pixels) {
   replace_in_pixels(field, stride, samples, gain, measured, relaxation, scratch, pixels);
 }
 
-NLCWFS_MULTIVERSION void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride,
-                                   std::complex<float>* out, std::ptrdiff_t out_stride,
-                                   std::ptrdiff_t rows, std::ptrdiff_t columns) {
+void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::complex<float>* out,
+               std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns) {
   transpose_tiles(in, in_stride, out, out_stride, rows, columns);
 }
 
-NLCWFS_MULTIVERSION void replace_amplitudes(std::complex<float>* field, std::ptrdiff_t stride,
-                                            int samples, float gain, const float* measured,
-                                            float relaxation, float* scratch, int pixels) {
+void replace_amplitudes(std::complex<float>* field, std::ptrdiff_t stride, int samples, float gain,
+                        const float* measured, float relaxation, float* scratch, int pixels) {
   replace_in_pixels(field, stride, samples, gain, measured, relaxation, scratch, pixels);
 }
 

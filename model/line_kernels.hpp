@@ -7,8 +7,7 @@
 
 namespace nlcwfs {
 
-// The arithmetic of the innermost loops, between the Fourier transforms. Compiled for several
-// instruction sets, of which the running processor's best is chosen when the program is loaded.
+// The arithmetic of the innermost loops, between the Fourier transforms.
 
 /// Complex factors of the values of a line, laid out for multiply_line.
 template <class Real>
@@ -38,7 +37,8 @@ void multiply_line(const std::complex<double>* in, const LineFactors<double>& fa
 void multiply_line(const std::complex<float>* in, const LineFactors<float>& factors,
                    std::complex<float> factor, std::complex<float>* out);
 
-/// out[column * out_stride + row] = in[row * in_stride + column]; strides in values.
+/// out[column * out_stride + row] = in[row * in_stride + column]; strides in values. `in` and `out`
+/// do not overlap and are aligned to the size of a value.
 void transpose(const std::complex<double>* in, std::ptrdiff_t in_stride, std::complex<double>* out,
                std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns);
 void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::complex<float>* out,

@@ -17,7 +17,7 @@ struct ScreenPerformance {
   double fractional_loops = 0.0;
   int fft_count = 0;
   double seconds = 0.0;                 ///< measured time of the reconstruction
-  double data_seconds = 0.0;            ///< measured time to make the detector's images
+  double data_seconds = 0.0;            ///< measured time to make the images, 0 for kept ones
   std::vector<double> captured_energy;  ///< share of the pupil's light in the window, per plane
 };
 

@@ -39,7 +39,8 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, T
 ///
 /// Memory: the screens, kept images of at most 256 MiB, and for each thread two complex fields of
 /// (detector + pupil) x (detector + pupil) truth samples and one of the reconstruction grid, with
-/// the images of one screen.
+/// the images of one screen; before that, up to 1 GiB for the kernel of a plane (64 MiB at the
+/// paper's distances). Kept images are of use as long as one design's fit.
 class Simulation {
  public:
   /// @param screens  true phases, all m x m samples across the diameter, rad

@@ -42,6 +42,7 @@ class ExtendedLight final : public TrueLight {
   }
 
  private:
+  /// Of a thread; see GerchbergSaxton::Workspace.
   struct Buffers {
     Field<double> spectrum;
     Field<double> field;

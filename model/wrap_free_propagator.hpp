@@ -23,8 +23,9 @@ class WrapFreePropagator {
   ///                        both grids share their sample positions
   /// @param pitch           sample spacing of both, m
   /// @param wavelength      m
-  /// @param period_margin   the kernel's period over the largest distance from the axis that
-  ///                        band-limited light reaches, lambda |z| / (2 pitch) + half the grid
+  /// @param period_margin   least period of the kernel, over lambda |z| / (2 pitch) + the widths of
+  ///                        pupil and window; less, but at least 4, where the period would exceed
+  ///                        2^24 samples
   WrapFreePropagator(int pupil_samples, int window_samples, double pitch, double wavelength,
                      double period_margin = 16.0);
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <sys/resource.h>
 #include <utility>
 #include <vector>
@@ -102,7 +103,7 @@ class Benchmark {
                                 : static_cast<int>(screens_.size())) {}
 
   /// Decides how many screens and repetitions there is time for: a few seconds for everything, or
-  /// as long as two wavefronts on one thread and two on all threads take.
+  /// as long as three wavefronts on one thread and two on all threads take.
   void prepare() {
     constexpr double evaluation_limit = 1.0;  // s
     const double seconds =
@@ -265,8 +266,8 @@ void print_speeds(const Speed& in_double, const Speed& in_single, const Benchmar
   }
   fmt::print("\n");
   milliseconds("ms to make one screen's images, always in double", &Speed::data_seconds);
-  milliseconds(fmt::format("ms to reconstruct from them in {:.1f} loops", in_double.loops),
-               &Speed::reconstruction_seconds);
+  milliseconds("ms to reconstruct from them", &Speed::reconstruction_seconds);
+  figure("  in loops", &Speed::loops);
   fmt::print("\n");
   figure(fmt::format("seconds per design on {}", counted(benchmark.configured_screens(), "screen")),
          &Speed::design_seconds);

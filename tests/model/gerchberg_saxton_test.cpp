@@ -288,6 +288,21 @@ const Variation variations[] = {
      [](SensorDesign& design) {
        design.planes = {-50e3, 35e3, 0.0};
      }},
+    {"PupilPlaneFirstZeroOutside",
+     [](SensorDesign& design) {
+       design.planes = {0.0, -50e3, 35e3};
+       design.reconstruction.outside = OutsideDetector::zero;
+     }},
+    {"PupilPlaneLastZeroOutside",
+     [](SensorDesign& design) {
+       design.planes = {-50e3, 35e3, 0.0};
+       design.reconstruction.outside = OutsideDetector::zero;
+     }},
+    {"EqualPlanesZeroOutside",
+     [](SensorDesign& design) {
+       design.planes = {-50e3, -50e3, 35e3};
+       design.reconstruction.outside = OutsideDetector::zero;
+     }},
     {"OnlyPupilPlanes",
      [](SensorDesign& design) {
        design.planes = {0.0, 0.0};
@@ -296,6 +311,25 @@ const Variation variations[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Variations, GerchbergSaxtonVariation, testing::ValuesIn(variations),
                          [](const auto& variation) { return variation.param.name; });
+
+TEST(GerchbergSaxton, KeepsNothingOfTheReconstructionBefore) {
+  for (const auto& planes :
+       std::vector<std::vector<double>>{{-60e3, 60e3, -20e3, 20e3}, {0.0, -50e3, 35e3}}) {
+    SensorDesign design;
+    design.planes = planes;
+    design.detector = {.pupil_pixels = 16, .window = 2.0};
+    design.reconstruction.window = 4.0;
+    design.reconstruction.max_loops = 3;
+    const auto images = matched_images(telescope, design, turbulence(16));
+    const auto others = matched_images(telescope, design, PhaseScreen::Zero(16, 16));
+    const GerchbergSaxton<double> used(telescope, design);
+    used.reconstruct(others);
+    const Field<double> again = used.reconstruct(images).pupil_field;
+    const Field<double> fresh =
+        GerchbergSaxton<double>(telescope, design).reconstruct(images).pupil_field;
+    EXPECT_TRUE((again == fresh).all());
+  }
+}
 
 TEST(GerchbergSaxton, CountsTwoTransformsForEachHopOfSomeLength) {
   SensorDesign design = small_design();

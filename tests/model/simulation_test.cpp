@@ -163,6 +163,7 @@ TEST_P(SimulationTruth, ImagesKeptFromOtherDesignsChangeNothing) {
 
 TEST_P(SimulationTruth, SinglePrecisionAgreesWithDouble) {
   screens_ = turbulence(16);
+  int compared = 0;
   SimulationOptions single = options_;
   single.precision = Precision::single_precision;
   for (const StoppingRule rule : {StoppingRule::difference, StoppingRule::rms_change}) {
@@ -173,14 +174,17 @@ TEST_P(SimulationTruth, SinglePrecisionAgreesWithDouble) {
       const ScreenPerformance& in_double = expected.screens[i];
       const ScreenPerformance& in_single = result.screens[i];
       EXPECT_EQ(in_single.captured_energy, in_double.captured_energy);
-      // A tie: the change crosses the tolerance right at a loop.
+      // But for ties, where the change crosses the tolerance right at a loop, and wavefronts that
+      // did not converge.
       const double fraction =
           std::abs(in_double.fractional_loops - std::round(in_double.fractional_loops));
       if (fraction < 1e-3) continue;
+      ++compared;
       EXPECT_EQ(in_single.loops, in_double.loops) << i;
       EXPECT_NEAR(in_single.wavefront.residual_wfe, in_double.wavefront.residual_wfe, 0.02e-9);
     }
   }
+  EXPECT_GE(compared, 28);
 }
 
 TEST_P(SimulationTruth, ConjugateLightMirrorsThePlanes) {
