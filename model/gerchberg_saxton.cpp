@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 namespace nlcwfs {
 namespace {
@@ -62,11 +63,16 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
   const ReconstructionOptions& options = design_.reconstruction;
   Workspace& workspace = workspaces_.local();
   Field<Real>& field = workspace.field;
-  std::vector<Image<Real>>& measured = workspace.measured;
+  std::vector<const Image<Real>*> measured(images.size());
   for (std::size_t plane = 0; plane < images.size(); ++plane) {
     assert(images[plane].rows() == design_.detector.width());
     assert(images[plane].cols() == design_.detector.width());
-    measured[plane] = images[plane].template cast<Real>();
+    if constexpr (std::is_same_v<Real, double>) {
+      measured[plane] = &images[plane];
+    } else {
+      workspace.converted[plane] = images[plane].template cast<Real>();
+      measured[plane] = &workspace.converted[plane];
+    }
   }
 
   const RowRange all_rows{0, propagator_.samples()};
@@ -96,7 +102,7 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
     };
     for (std::size_t plane = 0; plane < measured.size(); ++plane) {
       hop(plane, plane_rows);
-      measure(field, measured[plane], static_cast<Real>(options.relaxation(result.loops)));
+      measure(field, *measured[plane], static_cast<Real>(options.relaxation(result.loops)));
     }
     hop(measured.size(), pupil_rows);
     result.pupil_field = get_pupil(field);

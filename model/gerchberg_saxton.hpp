@@ -66,8 +66,8 @@ class GerchbergSaxton {
   /// of its time. A reconstruction must not start parallel work: while a thread waited for that, it
   /// might begin another reconstruction here.
   struct Workspace {
-    Field<Real> field;                  ///< between the planes
-    std::vector<Image<Real>> measured;  ///< the images, in visiting order
+    Field<Real> field;                   ///< between the planes
+    std::vector<Image<Real>> converted;  ///< the images, where Real is not their own precision
   };
   mutable tbb::enumerable_thread_specific<Workspace> workspaces_;
 };
