@@ -24,6 +24,7 @@ class ImageCache {
     int width;         ///< of the detector, pixels
     int pupil_pixels;  ///< across the pupil
 
+    // NOLINTNEXTLINE(modernize-use-nullptr): it compares with 0, which is no pointer
     auto operator<=>(const Key&) const = default;
   };
   using SharedImage = std::shared_ptr<const Image<double>>;

@@ -118,6 +118,7 @@ void transpose_tiles(const std::complex<Real>* in, std::ptrdiff_t in_stride,
     for (std::ptrdiff_t column = 0; column < whole_columns; column += side) {
       const auto* from = reinterpret_cast<const Value*>(in + row * in_stride + column);
       auto* to = reinterpret_cast<Value*>(out + column * out_stride + row);
+      // NOLINTNEXTLINE(modernize-avoid-c-arrays): std::array would lose the type's attributes
       Value tile[side][side];
       for (int i = 0; i < side; ++i) {
         for (int j = 0; j < side; ++j) tile[j][i] = from[i * in_stride + j];
@@ -172,8 +173,8 @@ template <class Real>
 void replace_samples(Real* values, const AmplitudeStep<Real>& step, const Real* measured,
                      int pixels) {
   using Vector = Lanes<Real>;
-  constexpr int count = sizeof(Vector) / sizeof(Real);
-  int pixel = 0;
+  constexpr std::ptrdiff_t count = sizeof(Vector) / sizeof(Real);
+  std::ptrdiff_t pixel = 0;
   for (; pixel + count <= pixels; pixel += count) {
     const Vector a = load(values + 2 * pixel);
     const Vector b = load(values + 2 * pixel + count);

@@ -110,6 +110,7 @@ class Experiment {
   std::vector<Image<double>> detector_images(const std::vector<ImageCache::SharedImage>& light,
                                              std::size_t screen) const {
     std::vector<Image<double>> images;
+    images.reserve(light.size());
     for (const ImageCache::SharedImage& image : light) images.push_back(*image);
     if (detector_.photons == 0.0) return images;
     const double photons_per_unit = detector_.photons / double(images.size()) / pupil_energy();
