@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlopt.h>
 
 namespace nlcwfs {
@@ -23,15 +24,19 @@ struct Algorithm {
 
 constexpr std::array algorithms{
     Algorithm{"direct_l", NLOPT_GN_DIRECT_L, SearchScope::global, 1},
+    Algorithm{"direct_l_rand", NLOPT_GN_DIRECT_L_RAND, SearchScope::global, 1},
     Algorithm{"crs2", NLOPT_GN_CRS2_LM, SearchScope::global, 1},
+    Algorithm{"mlsl", NLOPT_G_MLSL_LDS, SearchScope::global, 1},
+    Algorithm{"isres", NLOPT_GN_ISRES, SearchScope::global, 1},
+    Algorithm{"esch", NLOPT_GN_ESCH, SearchScope::global, 1},
     Algorithm{"sbplx", NLOPT_LN_SBPLX, SearchScope::local, 1},
     Algorithm{"nelder_mead", NLOPT_LN_NELDERMEAD, SearchScope::local, 1},
     Algorithm{"bobyqa", NLOPT_LN_BOBYQA, SearchScope::local, 2},
     Algorithm{"cobyla", NLOPT_LN_COBYLA, SearchScope::local, 1},
+    Algorithm{"praxis", NLOPT_LN_PRAXIS, SearchScope::local, 2},
 };
 
 const Algorithm& find_algorithm(std::string_view name, int variable_count) {
-  std::string names;
   for (const Algorithm& algorithm : algorithms) {
     if (algorithm.name == name) {
       if (variable_count >= algorithm.least_variables) return algorithm;
@@ -39,9 +44,17 @@ const Algorithm& find_algorithm(std::string_view name, int variable_count) {
           fmt::format("{} needs at least {} variables, this problem has {}: take sbplx", name,
                       algorithm.least_variables, variable_count));
     }
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", algorithm.name);
   }
-  throw std::invalid_argument(fmt::format("{} is no optimizer: there are {}", name, names));
+  throw std::invalid_argument(
+      fmt::format("{} is no optimizer: there are {}", name, fmt::join(nlopt_algorithms(), ", ")));
+}
+
+using NloptPointer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
+
+NloptPointer create(nlopt_algorithm id, int variable_count) {
+  NloptPointer optimizer(nlopt_create(id, static_cast<unsigned>(variable_count)), nlopt_destroy);
+  if (!optimizer) throw std::bad_alloc();
+  return optimizer;
 }
 
 /// The cost as NLopt sees it, over the unit box. NLopt is C: no exception may pass through it, and
@@ -60,12 +73,14 @@ struct Objective {
   int evaluations() const { return evaluator.evaluations() - first_evaluation; }
 
   double answer(const double* unit_x) {
-    const Eigen::Map<const Eigen::VectorXd> unit(unit_x, lower.size());
+    const Eigen::Map<const Eigen::ArrayXd> unit(unit_x, lower.size());
     // An algorithm whose model broke down asks for the cost of NaN: its run is over.
     if (!unit.allFinite()) stop();
     if (stopped) return 0.0;
     try {
-      const double cost = evaluator({choice, lower + range.cwiseProduct(unit)});
+      // Reflected at the bounds, for praxis; inside them exactly the same.
+      const Eigen::ArrayXd inside = (unit - 2.0 * (0.5 * unit).round()).abs();
+      const double cost = evaluator({choice, lower + range.cwiseProduct(inside.matrix())});
       if (evaluations() >= max_evaluations) stop();
       return cost;
     } catch (...) {
@@ -83,6 +98,12 @@ struct Objective {
 
 }  // namespace
 
+std::vector<std::string_view> nlopt_algorithms() {
+  std::vector<std::string_view> names;
+  for (const Algorithm& algorithm : algorithms) names.push_back(algorithm.name);
+  return names;
+}
+
 SearchScope nlopt_scope(std::string_view algorithm, int variable_count) {
   return find_algorithm(algorithm, variable_count).scope;
 }
@@ -92,10 +113,8 @@ StageResult minimize(std::string_view algorithm, Evaluator& evaluator, int choic
   assert(options.max_evaluations >= 1 && options.initial_step > 0.0 && options.initial_step <= 0.5);
   const std::vector<Variable>& variables = evaluator.variables();
   const int count = static_cast<int>(variables.size());
-  const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimizer(
-      nlopt_create(find_algorithm(algorithm, count).id, static_cast<unsigned>(count)),
-      nlopt_destroy);
-  if (!optimizer) throw std::bad_alloc();
+  const nlopt_algorithm id = find_algorithm(algorithm, count).id;
+  const NloptPointer optimizer = create(id, count);
 
   Objective objective{evaluator,
                       choice,
@@ -114,10 +133,28 @@ StageResult minimize(std::string_view algorithm, Evaluator& evaluator, int choic
     return static_cast<Objective*>(data)->answer(x);
   };
   nlopt_set_min_objective(optimizer.get(), cost, &objective);
-  nlopt_set_lower_bounds1(optimizer.get(), 0.0);
-  nlopt_set_upper_bounds1(optimizer.get(), 1.0);
+  // praxis knows no bounds. NLopt gives it an infinite cost outside of them, and its parabolas
+  // through that end in designs of NaN.
+  if (id != NLOPT_LN_PRAXIS) {
+    nlopt_set_lower_bounds1(optimizer.get(), 0.0);
+    nlopt_set_upper_bounds1(optimizer.get(), 1.0);
+  }
   nlopt_set_initial_step1(optimizer.get(), options.initial_step);
   nlopt_set_xtol_abs1(optimizer.get(), options.x_tolerance);
+  if (id == NLOPT_G_MLSL_LDS) {
+    // A local algorithm that may end in an error (bobyqa, cobyla: rounding) would end mlsl with
+    // it. With 300 evaluations sbplx came five times as close as nelder_mead.
+    const NloptPointer local = create(NLOPT_LN_SBPLX, count);
+    nlopt_set_xtol_abs1(local.get(), options.x_tolerance);
+    nlopt_set_local_optimizer(optimizer.get(), local.get());
+  }
+  if (id == NLOPT_GN_ISRES || id == NLOPT_GN_ESCH) {
+    // NLopt's 20 (n + 1) and 40 leave a budget of hundreds only a few generations. It must not
+    // depend on the limit, or a resumed run would take another path.
+    nlopt_set_population(optimizer.get(), 3 * static_cast<unsigned>(count + 1));
+    // isres would end as soon as a best point happened to be close to the one before.
+    nlopt_set_xtol_abs1(optimizer.get(), 0.0);
+  }
   // The evaluator counts what costs. This only ends an algorithm that would go round for ever in
   // designs that are known, and leaves room to replay all of them.
   nlopt_set_maxeval(optimizer.get(), 10 * (evaluator.evaluations() + options.max_evaluations));
@@ -133,7 +170,7 @@ StageResult minimize(std::string_view algorithm, Evaluator& evaluator, int choic
         fmt::format("NLopt refuses {}: {}", algorithm, reason ? reason : "invalid arguments"));
   }
   // Any other result, NLopt's failures included, says only that the run ended.
-  return {objective.evaluations(), !objective.stopped};
+  return {objective.evaluations(), objective.evaluations() < options.max_evaluations};
 }
 
 }  // namespace nlcwfs

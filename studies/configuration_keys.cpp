@@ -230,8 +230,9 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::text,
        .default_text = "auto",
        .description = "Method: GLOBAL+LOCAL, one of either, or auto (direct_l+sbplx, or "
-                      "direct_l+nelder_mead for three and more variables). Global: direct_l, crs2; "
-                      "local: sbplx, nelder_mead, bobyqa, cobyla.",
+                      "direct_l+nelder_mead for three and more variables). Global: direct_l, "
+                      "direct_l_rand, crs2, mlsl, isres, esch; local: sbplx, nelder_mead, bobyqa, "
+                      "cobyla, praxis.",
        .example = "direct_l+bobyqa"},
       {.name = "search.plane_count",
        .kind = Kind::integer,

@@ -2,6 +2,7 @@
 
 #include "optimizer/problem.hpp"
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 #include <fmt/format.h>
 
@@ -182,6 +184,46 @@ inline TestProblem plateau() {
           1.99};
 }
 
+/// Rosenbrock's function: a narrow, curved valley, lowest at (1, 1) (Rosenbrock 1960).
+inline TestProblem rosenbrock() {
+  return {"rosenbrock", cube(2, -2.0, 2.0),
+          [](int, const Eigen::VectorXd& x) {
+            const double across = x[1] - x[0] * x[0];
+            const double along = 1.0 - x[0];
+            return 100.0 * across * across + along * along;
+          },
+          0.0};
+}
+
+/// A bowl that is lowest, 1, on the middle of a side of the box, with a slope across that side.
+inline TestProblem lowest_on_a_bound() {
+  return {"lowest_on_a_bound", cube(2, 0.0, 1.0),
+          [](int, const Eigen::VectorXd& x) { return 1.0 + x[0] + (x[1] - 0.3) * (x[1] - 0.3); },
+          1.0};
+}
+
+/// Lowest, -6, in a corner of the box, with a slope along each side.
+inline TestProblem lowest_in_a_corner() {
+  return {"lowest_in_a_corner", cube(3, -1.0, 1.0),
+          [](int, const Eigen::VectorXd& x) { return x[0] - 2.0 * x[1] + 3.0 * x[2]; }, -6.0};
+}
+
+/// The bowl with noise of standard deviation 0.003 that is drawn anew for every point, but always
+/// the same at the same point; its lowest cost is not below 2 by more than 6 deviations.
+inline TestProblem noisy_bowl() {
+  TestProblem problem = rotated_bowl();
+  problem.name = "noisy_bowl";
+  problem.function = [](int, const Eigen::VectorXd& x) {
+    std::uint64_t seed = 0;
+    for (const double value : x)
+      seed = 6364136223846793005u * (seed + std::bit_cast<std::uint64_t>(value)) + 1;
+    boost::random::mt19937_64 generator(seed);
+    return rotated_bowl_cost(x) + 0.003 * boost::random::normal_distribution<double>()(generator);
+  };
+  problem.minimum -= 0.018;
+  return problem;
+}
+
 /// The same cost everywhere.
 inline TestProblem constant() {
   return {"constant", cube(2, 0.0, 1.0), [](int, const Eigen::VectorXd&) { return 0.0; }, 0.0};
@@ -248,8 +290,11 @@ inline TestProblem all_failing() {
 
 /// The problems that have an optimum, for every backend.
 inline std::vector<TestProblem> solvable_problems() {
-  return {one_variable(), rotated_bowl(), branin(),   rastrigin(), levy(4),      coupled_bowl(),
-          hartmann(),     plateau(),      constant(), choices(),   nan_region(), throwing_region()};
+  return {
+      one_variable(), rotated_bowl(),    branin(),     rastrigin(),         levy(4),
+      coupled_bowl(), hartmann(),        plateau(),    constant(),          choices(),
+      nan_region(),   throwing_region(), rosenbrock(), lowest_on_a_bound(), lowest_in_a_corner(),
+      noisy_bowl()};
 }
 
 }  // namespace nlcwfs

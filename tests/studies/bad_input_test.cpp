@@ -134,7 +134,8 @@ TEST_F(BadInput, OfASearch) {
   expect_refused("optimize", {"--verify.seed", "1"}, "verify.seed = 1",
                  "another seed than screens.seed");
   expect_refused("optimize", {"--search.optimizer", "sbplex"}, "search.optimizer = sbplex",
-                 "direct_l, crs2, sbplx, nelder_mead, bobyqa, cobyla");
+                 "direct_l, direct_l_rand, crs2, mlsl, isres, esch, sbplx, nelder_mead, bobyqa, "
+                 "cobyla, praxis");
   expect_refused("optimize", {"--search.optimizer", "sbplx+direct_l"},
                  "search.optimizer = sbplx+direct_l", "such as direct_l+sbplx");
   expect_refused("optimize", {"--search.z_near", "50km:5km"}, "search.z_near = 50km:5km",

@@ -1,5 +1,6 @@
 #include "studies/configuration.hpp"
 
+#include "optimizer/nlopt_backend.hpp"
 #include "tests/message_of.hpp"
 
 #include <algorithm>
@@ -58,6 +59,16 @@ TEST(ConfigurationKeys, AreUniqueDocumentedAndGroupedBySection) {
     if (sections.empty() || sections.back() != section) sections.push_back(section);
   }
   EXPECT_EQ(std::set(sections.begin(), sections.end()).size(), sections.size());
+}
+
+TEST(ConfigurationKeys, NameEveryOptimizer) {
+  const auto& keys = configuration_keys();
+  const auto key = std::find_if(keys.begin(), keys.end(),
+                                [](const auto& each) { return each.name == "search.optimizer"; });
+  ASSERT_NE(key, keys.end());
+  for (const std::string_view algorithm : nlopt_algorithms()) {
+    EXPECT_THAT(key->description, testing::ContainsRegex(" " + std::string(algorithm) + "[,;.]"));
+  }
 }
 
 TEST(ConfigurationKeys, DefaultsAndPresetsAreAllowedThemselves) {
