@@ -76,7 +76,7 @@ class Evaluator {
   Evaluator(Problem& problem, EvaluatorOptions options);
 
   /// The finite cost of a design for an optimizer to work with. A point outside the bounds (by an
-  /// optimizer's rounding) is moved onto them first.
+  /// optimizer's rounding, or by one without bounds) is moved onto them first.
   ///
   /// A design without a cost (an exception of any kind, NaN, an infinity or an absolute value above
   /// 1e100) is a failure and answered with a penalty: worst + 10 max(worst - best, |worst|) of the

@@ -73,14 +73,12 @@ struct Objective {
   int evaluations() const { return evaluator.evaluations() - first_evaluation; }
 
   double answer(const double* unit_x) {
-    const Eigen::Map<const Eigen::ArrayXd> unit(unit_x, lower.size());
+    const Eigen::Map<const Eigen::VectorXd> unit(unit_x, lower.size());
     // An algorithm whose model broke down asks for the cost of NaN: its run is over.
     if (!unit.allFinite()) stop();
     if (stopped) return 0.0;
     try {
-      // Reflected at the bounds, for praxis; inside them exactly the same.
-      const Eigen::ArrayXd inside = (unit - 2.0 * (0.5 * unit).round()).abs();
-      const double cost = evaluator({choice, lower + range.cwiseProduct(inside.matrix())});
+      const double cost = evaluator({choice, lower + range.cwiseProduct(unit)});
       if (evaluations() >= max_evaluations) stop();
       return cost;
     } catch (...) {
@@ -133,8 +131,10 @@ StageResult minimize(std::string_view algorithm, Evaluator& evaluator, int choic
     return static_cast<Objective*>(data)->answer(x);
   };
   nlopt_set_min_objective(optimizer.get(), cost, &objective);
-  // praxis knows no bounds. NLopt gives it an infinite cost outside of them, and its parabolas
-  // through that end in designs of NaN.
+  // praxis knows no bounds. NLopt would give it an infinite cost outside of them, and its parabolas
+  // through that end in designs of NaN. The evaluator gives it the cost of the nearest point
+  // inside, so it finds lowest points on the bounds (and closer than with reflection at the
+  // bounds).
   if (id != NLOPT_LN_PRAXIS) {
     nlopt_set_lower_bounds1(optimizer.get(), 0.0);
     nlopt_set_upper_bounds1(optimizer.get(), 1.0);

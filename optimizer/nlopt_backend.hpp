@@ -28,7 +28,7 @@ std::vector<std::string_view> nlopt_algorithms();
 ///
 /// Local: `sbplx` (subplex, Rowan 1990), `nelder_mead` (Nelder & Mead 1965, with bounds), `bobyqa`
 /// (quadratic models, Powell 2009), `cobyla` (linear models, Powell 1994), `praxis` (principal
-/// axes, Brent 1973; reflected at the bounds).
+/// axes, Brent 1973; points outside the bounds are moved onto them).
 /// @param variable_count  the number of variables that it is meant for
 /// @throws std::invalid_argument for an unknown name, listing those that there are, and for an
 ///   algorithm that cannot search that few variables, naming one that can

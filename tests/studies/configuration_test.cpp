@@ -67,7 +67,7 @@ TEST(ConfigurationKeys, NameEveryOptimizer) {
                                 [](const auto& each) { return each.name == "search.optimizer"; });
   ASSERT_NE(key, keys.end());
   for (const std::string_view algorithm : nlopt_algorithms()) {
-    EXPECT_THAT(key->description, testing::ContainsRegex(" " + std::string(algorithm) + "[,;.]"));
+    EXPECT_THAT(key->description, testing::ContainsRegex(std::string(algorithm) + "[,;.]"));
   }
 }
 
