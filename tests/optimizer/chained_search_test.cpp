@@ -30,7 +30,8 @@ class EveryMethod : public testing::TestWithParam<std::string> {
  protected:
   std::vector<TestProblem> problems() const {
     std::vector<TestProblem> problems = solvable_problems();
-    if (GetParam().find("bobyqa") != std::string::npos) {
+    if (GetParam().find("bobyqa") != std::string::npos ||
+        GetParam().find("praxis") != std::string::npos) {
       std::erase_if(problems, [](const auto& problem) { return problem.box.size() < 2; });
     }
     return problems;
@@ -101,7 +102,8 @@ TEST_P(EveryMethod, TakesTheSamePathWithTheSameSeed) {
 INSTANTIATE_TEST_SUITE_P(ChainedSearch, EveryMethod,
                          testing::Values("auto", "direct_l+sbplx", "direct_l+nelder_mead",
                                          "direct_l+bobyqa", "crs2+sbplx", "crs2+cobyla", "direct_l",
-                                         "crs2", "sbplx", "bobyqa"),
+                                         "crs2", "sbplx", "bobyqa", "direct_l_rand+praxis", "mlsl",
+                                         "isres+sbplx", "esch"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), '+', '_');
