@@ -98,6 +98,7 @@ struct Objective {
 
 std::vector<std::string_view> nlopt_algorithms() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(algorithms));
   for (const Algorithm& algorithm : algorithms) names.push_back(algorithm.name);
   return names;
 }

@@ -8,7 +8,7 @@
 namespace nlcwfs {
 namespace {
 
-constexpr std::size_t image_bytes = 4 * 4 * sizeof(double);
+constexpr std::size_t image_bytes = sizeof(double) * 4 * 4;
 
 ImageCache::SharedImage image(double value) {
   return std::make_shared<const Image<double>>(Image<double>::Constant(4, 4, value));

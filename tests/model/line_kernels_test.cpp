@@ -3,6 +3,8 @@
 #include "model/array.hpp"
 #include "model/random_stream.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -77,6 +79,15 @@ TYPED_TEST(LineKernels, TransposeMovesEveryValueOfAnyShapeAndNoOther) {
   }
 }
 
+/// The relaxed projection of a pixel's field, as its definition says.
+template <class Real>
+Field<Real> projected(const Field<Real>& field, Real measured, Real relaxation) {
+  const Real estimated = std::sqrt(field.abs2().mean());
+  const Real amplitude = std::sqrt(std::max(measured, Real(0)));
+  const Real wanted = amplitude + relaxation * (amplitude - estimated);
+  return estimated > Real(0) ? Field<Real>(field * (wanted / estimated)) : field;
+}
+
 TYPED_TEST(LineKernels, ReplaceAmplitudesIsTheRelaxedProjectionOfEachPixel) {
   using Real = TypeParam;
   for (const int samples : {1, 2, 3, 4}) {
@@ -99,11 +110,7 @@ TYPED_TEST(LineKernels, ReplaceAmplitudesIsTheRelaxedProjectionOfEachPixel) {
                            scratch.data(), pixels);
         for (int pixel = 0; pixel < pixels; ++pixel) {
           const Field<Real> old = gain * before.middleCols(pixel * samples, samples);
-          const Real estimated = std::sqrt(old.abs2().mean());
-          const Real amplitude = std::sqrt(std::max(measured[pixel], Real(0)));
-          const Real wanted = amplitude + relaxation * (amplitude - estimated);
-          const Field<Real> expected =
-              estimated > Real(0) ? Field<Real>(old * (wanted / estimated)) : old;
+          const Field<Real> expected = projected<Real>(old, measured[pixel], relaxation);
           const Field<Real> replaced = field.middleCols(pixel * samples, samples);
           EXPECT_LT((replaced - expected).abs().maxCoeff(), Real(4) * this->tolerance_);
         }

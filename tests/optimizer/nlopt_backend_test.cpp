@@ -44,7 +44,7 @@ BackendRun run(std::string_view algorithm, TestProblem problem, StageOptions opt
 /// Every algorithm on every problem that it can solve.
 class EveryAlgorithm : public testing::TestWithParam<std::string_view> {
  protected:
-  std::vector<TestProblem> problems() const {
+  static std::vector<TestProblem> problems() {
     std::vector<TestProblem> problems = solvable_problems();
     std::erase_if(problems, [](const auto& problem) { return !can_search(GetParam(), problem); });
     return problems;

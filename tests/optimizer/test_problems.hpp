@@ -65,6 +65,7 @@ struct TestProblem : Problem {
 
 inline std::vector<Variable> cube(int variables, double lower, double upper) {
   std::vector<Variable> box;
+  box.reserve(static_cast<std::size_t>(variables));
   for (int i = 0; i < variables; ++i) box.push_back({fmt::format("x{}", i), lower, upper});
   return box;
 }
