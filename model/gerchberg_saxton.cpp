@@ -91,7 +91,7 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
   while (!result.converged && result.loops < options.max_loops) {
     ++result.loops;
     RowRange lit = pupil_rows;
-    // Where no hop overwrites what the loop before left.
+    // No hop overwrites what the loop before left; rows that are dark in the pupil stay dark.
     if (!hops_.front()) field.setZero();
     propagator_.transform_middle_rows(result.pupil_field, field);
     const auto hop = [&](std::size_t index, RowRange wanted) {
