@@ -2,9 +2,7 @@
 // and the threads.
 
 #include "benchmarks/default_problem.hpp"
-#include "model/gerchberg_saxton.hpp"
-
-#include <vector>
+#include "benchmarks/loop_timing.hpp"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -12,32 +10,19 @@
 namespace nlcwfs {
 namespace {
 
-constexpr int loops = 10;
-
-void time_loops(benchmark::State& state, SensorDesign design) {
-  design.reconstruction.max_loops = loops;
-  design.reconstruction.tolerance = 0.0;
-  const GerchbergSaxton<double> reconstructor(Telescope(), design);
-  const int width = design.detector.width();
-  const std::vector<Image<double>> images(design.planes.size(), Image<double>::Ones(width, width));
-  while (state.KeepRunningBatch(loops)) {
-    benchmark::DoNotOptimize(reconstructor.reconstruct(images));
-  }
-}
-
 /// Half of the window measured, as by default.
 void loop_with_window(benchmark::State& state) {
   SensorDesign design;
   design.reconstruction.window = static_cast<double>(state.range(0)) / design.pupil_samples();
   design.detector.window = design.reconstruction.window / 2.0;
-  time_loops(state, design);
+  time_loops<double>(state, design);
 }
 
 void loop_with_planes(benchmark::State& state) {
   SensorDesign design;
   design.planes = {-180e3, 180e3, -47e3, 47e3, -100e3, 100e3};
   design.planes.resize(static_cast<std::size_t>(state.range(0)));
-  time_loops(state, design);
+  time_loops<double>(state, design);
 }
 
 void design_with_screens(benchmark::State& state) {

@@ -1,21 +1,18 @@
 // One Gerchberg-Saxton loop of four planes, and one propagation, beside what the loop cannot do
 // without: its ten two-dimensional transforms, by FFTW's own plans that were chosen by measuring.
 
+#include "benchmarks/loop_timing.hpp"
 #include "model/fresnel_propagator.hpp"
-#include "model/gerchberg_saxton.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include <benchmark/benchmark.h>
 #include <fftw3.h>
 
 namespace nlcwfs {
 namespace {
-
-constexpr int loops = 10;
 
 template <class Real, class Complex, auto plan_2d, auto execute, auto destroy>
 void ten_transforms(benchmark::State& state) {
@@ -57,14 +54,7 @@ void loop(benchmark::State& state) {
   design.detector.pupil_pixels =
       static_cast<int>(double(state.range(0)) / design.reconstruction.window);
   design.detector.window = static_cast<double>(state.range(1));
-  design.reconstruction.max_loops = loops;
-  design.reconstruction.tolerance = 0.0;
-  const GerchbergSaxton<Real> reconstructor(Telescope(), design);
-  const int width = design.detector.width();
-  const std::vector<Image<double>> images(design.planes.size(), Image<double>::Ones(width, width));
-  while (state.KeepRunningBatch(loops)) {
-    benchmark::DoNotOptimize(reconstructor.reconstruct(images));
-  }
+  time_loops<Real>(state, design);
 }
 
 void grids(benchmark::internal::Benchmark* benchmark) {

@@ -46,6 +46,8 @@ class GerchbergSaxton {
 
   /// The pupil as sampled by the reconstruction, pupil_pixels x oversampling samples across.
   const PupilMask& mask() const { return mask_; }
+  /// The design's, for that pupil.
+  const PhaseUnwrapper& unwrapper() const { return unwrapper_; }
 
  private:
   Field<double> first_estimate(std::span<const Image<double>> images) const;

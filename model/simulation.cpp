@@ -51,8 +51,7 @@ class Experiment {
         noise_keys_(ranks_by_distance(design.planes)),
         light_(
             make_true_light(options.truth, telescope, design, static_cast<int>(truth_mask.rows()))),
-        reconstructor_(telescope, design),
-        unwrapper_(reconstructor_.mask(), design.reconstruction.unwrapping) {}
+        reconstructor_(telescope, design) {}
 
   ScreenPerformance run(const PhaseScreen& truth, std::size_t screen) const {
     using Clock = std::chrono::steady_clock;
@@ -62,7 +61,7 @@ class Experiment {
 
     const auto start = Clock::now();
     const Reconstruction reconstruction = reconstructor_.reconstruct(images);
-    const Image<double> phase = unwrapper_.unwrap(reconstruction.pupil_field);
+    const Image<double> phase = reconstructor_.unwrapper().unwrap(reconstruction.pupil_field);
     const std::chrono::duration<double> elapsed = Clock::now() - start;
 
     ScreenPerformance result;
@@ -131,7 +130,6 @@ class Experiment {
   std::vector<std::size_t> noise_keys_;
   std::unique_ptr<const TrueLight> light_;
   GerchbergSaxton<Real> reconstructor_;
-  PhaseUnwrapper unwrapper_;
 };
 
 template <class Real>
