@@ -4,6 +4,8 @@
 #include "objectives/placement_problem.hpp"
 #include "optimizer/chained_search.hpp"
 
+#include <memory>
+
 #include <benchmark/benchmark.h>
 
 namespace nlcwfs {
@@ -19,8 +21,13 @@ void search_default(benchmark::State& state) {
                     *layout.point_of({-47e3, 47e3, -180e3, 180e3})};
   int evaluations = 0;
   while (state.KeepRunning()) {
-    const Simulation simulation = default_simulation({.precision = Precision::single_precision});
-    PlacementProblem problem(simulation, layout, design, DesignCost());
+    const DesignTrial trial(
+        {{.name = "default",
+          .simulation = std::make_shared<const Simulation>(
+              telescope, default_screens(default_truth_samples(TruthModel::extended)),
+              SimulationOptions{.precision = Precision::single_precision})}},
+        DesignCost());
+    PlacementProblem problem(trial, layout, design);
     evaluations += search(problem, options).evaluations;
   }
   state.counters["evaluations"] =

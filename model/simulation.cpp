@@ -8,6 +8,7 @@
 #include "model/wrap_free_propagator.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -133,17 +134,18 @@ class Experiment {
 };
 
 template <class Real>
-Performance run_all(const Telescope& telescope, const SensorDesign& design,
-                    const SimulationOptions& options, const PupilMask& truth_mask,
-                    const std::vector<PhaseScreen>& screens, ImageCache& images) {
+Performance run_screens(const Telescope& telescope, const SensorDesign& design,
+                        const SimulationOptions& options, const PupilMask& truth_mask,
+                        const std::vector<PhaseScreen>& screens, std::size_t first,
+                        std::size_t count, ImageCache& images) {
   const Experiment<Real> experiment(telescope, design, options, truth_mask, images);
   Performance performance;
-  performance.screens.resize(screens.size());
+  performance.screens.resize(count);
   // One screen at a time: they take different numbers of loops.
   tbb::parallel_for(
-      std::size_t{0}, screens.size(),
-      [&](std::size_t screen) {
-        performance.screens[screen] = experiment.run(screens[screen], screen);
+      std::size_t{0}, count,
+      [&](std::size_t i) {
+        performance.screens[i] = experiment.run(screens[first + i], first + i);
       },
       tbb::simple_partitioner());
   return performance;
@@ -221,11 +223,17 @@ SensorDesign Simulation::checked(SensorDesign design) const {
 }
 
 Performance Simulation::evaluate(const SensorDesign& design) const {
+  return evaluate(design, 0, screen_count());
+}
+
+Performance Simulation::evaluate(const SensorDesign& design, int first, int count) const {
+  assert(first >= 0 && count >= 1 && first + count <= screen_count());
   const SensorDesign valid = checked(design);
+  const auto run =
+      options_.precision == Precision::double_precision ? run_screens<double> : run_screens<float>;
   Performance performance =
-      options_.precision == Precision::double_precision
-          ? run_all<double>(telescope_, valid, options_, mask_, screens_, images_)
-          : run_all<float>(telescope_, valid, options_, mask_, screens_, images_);
+      run(telescope_, valid, options_, mask_, screens_, static_cast<std::size_t>(first),
+          static_cast<std::size_t>(count), images_);
   for (const ScreenPerformance& screen : performance.screens) {
     if (!std::isfinite(screen.wavefront.residual_wfe) ||
         !std::isfinite(screen.wavefront.total_wfe)) {

@@ -7,19 +7,18 @@
 
 namespace nlcwfs {
 
-PlacementProblem::PlacementProblem(const Simulation& simulation, const PlaneLayout& layout,
-                                   SensorDesign design, const DesignCost& cost)
-    : simulation_(simulation), layout_(layout), design_(std::move(design)), cost_(cost) {}
+PlacementProblem::PlacementProblem(const DesignTrial& trial, const PlaneLayout& layout,
+                                   SensorDesign design)
+    : trial_(trial), layout_(layout), design_(std::move(design)) {}
 
 std::string PlacementProblem::key(const SearchPoint& point) const {
   return fmt::format("{:.7g}", fmt::join(layout_.planes(point), ","));
 }
 
 double PlacementProblem::cost(const SearchPoint& point) {
-  const SensorDesign candidate = design(point);
-  last_performance_ = {};
-  last_performance_ = simulation_.evaluate(candidate);
-  return mean_and_standard_error(cost_.per_screen(last_performance_, candidate)).mean;
+  last_tried_ = {};
+  last_tried_ = trial_.run(design(point));
+  return mean_and_standard_error(last_tried_.costs).mean;
 }
 
 SensorDesign PlacementProblem::design(const SearchPoint& point) const {

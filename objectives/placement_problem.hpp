@@ -1,7 +1,6 @@
 #pragma once
 
-#include "model/simulation.hpp"
-#include "objectives/design_cost.hpp"
+#include "objectives/design_trial.hpp"
 #include "objectives/plane_layout.hpp"
 #include "optimizer/problem.hpp"
 
@@ -10,13 +9,12 @@
 namespace nlcwfs {
 
 /// The search for the planes of a sensor whose other properties are fixed: each point of a layout
-/// is simulated, and its performance costed.
+/// is tried.
 class PlacementProblem final : public Problem {
  public:
-  /// @param simulation, layout  used by reference
-  /// @param design              everything but the planes
-  PlacementProblem(const Simulation& simulation, const PlaneLayout& layout, SensorDesign design,
-                   const DesignCost& cost);
+  /// @param trial, layout  used by reference
+  /// @param design         everything but the planes
+  PlacementProblem(const DesignTrial& trial, const PlaneLayout& layout, SensorDesign design);
 
   std::vector<Variable> variables() const override { return layout_.variables(); }
   int choice_count() const override { return layout_.choice_count(); }
@@ -25,15 +23,14 @@ class PlacementProblem final : public Problem {
   double cost(const SearchPoint& point) override;
 
   SensorDesign design(const SearchPoint& point) const;
-  /// Of the design whose cost was asked for last.
-  const Performance& last_performance() const { return last_performance_; }
+  /// The design whose cost was asked for last; without performances where it failed.
+  const TriedDesign& last_tried() const { return last_tried_; }
 
  private:
-  const Simulation& simulation_;
+  const DesignTrial& trial_;
   const PlaneLayout& layout_;
   SensorDesign design_;
-  DesignCost cost_;
-  Performance last_performance_;
+  TriedDesign last_tried_;
 };
 
 }  // namespace nlcwfs

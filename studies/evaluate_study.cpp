@@ -34,24 +34,23 @@ void run_evaluate(const CommandLine& command_line) {
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   std::vector<std::string> notes;
-  const Simulation simulation = simulation_of(configuration, "simulation.precision", notes);
-  const SensorDesign design = simulation.checked(design_of(configuration));
-  const DesignCost cost = cost_of(configuration);
+  const DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
+  const SensorDesign design = trial.checked(design_of(configuration));
   RunRecord record(command_line);
 
   const auto start = std::chrono::steady_clock::now();
-  const Performance performance = simulation.evaluate(design);
+  const TriedDesign tried = trial.run(design);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const Performance& performance = tried.performances.front();
 
   nlohmann::ordered_json json = to_json(design, telescope, seeing.fried_parameter);
-  const std::vector<double> costs = cost.per_screen(performance, design);
   record.archive().add({.stage = "evaluate",
                         .design = json.dump(),
-                        .cost = mean_and_standard_error(costs).mean,
+                        .cost = mean_and_standard_error(tried.costs).mean,
                         .failure = "",
                         .seconds = elapsed.count(),
                         .performance = to_json(performance).dump()});
-  json["cost"] = to_json(mean_and_standard_error(costs));
+  json["cost"] = to_json(mean_and_standard_error(tried.costs));
   json["performance"] = to_json(performance);
   record.folder().write("screens.csv", screens_table(performance));
   record.write_summary({{"design", json}});
@@ -61,7 +60,7 @@ void run_evaluate(const CommandLine& command_line) {
   fmt::print("{}\n", planes_table(design, telescope, seeing, &performance));
   fmt::print("On {} screens, {} truth:\n{}", performance.screens.size(),
              configuration.choice("simulation.truth"),
-             performance_table({{"mean +- standard error", &performance, costs}}));
+             performance_table({{"mean +- standard error", &performance, tried.costs}}));
   fmt::print("{}", captured_energy_warnings(design, performance));
   fmt::print("\n{}\n", record.closing_line());
 }

@@ -1,6 +1,6 @@
 #include "model/input_error.hpp"
+#include "objectives/design_comparison.hpp"
 #include "objectives/placement_problem.hpp"
-#include "objectives/verified_design.hpp"
 #include "optimizer/chained_search.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
@@ -51,12 +51,11 @@ struct Task {
 
   Telescope telescope;
   Seeing seeing;
-  DesignCost cost;
   std::unique_ptr<PlaneLayout> layout;
   SearchOptions search;
   std::vector<std::string> notes;
-  Simulation simulation;
-  Simulation verification;
+  DesignTrial trial;
+  DesignTrial verification;
   SensorDesign design;  ///< what the search varies the planes of
   SensorDesign baseline;
 };
@@ -64,13 +63,12 @@ struct Task {
 Task::Task(const Configuration& configuration)
     : telescope(telescope_of(configuration)),
       seeing(seeing_of(configuration, telescope)),
-      cost(cost_of(configuration)),
       layout(layout_of(configuration, telescope)),
       search(search_options_of(configuration, *layout)),
-      simulation(simulation_of(configuration, "search.precision", notes)),
-      verification(verification_of(configuration)),
-      design(simulation.checked(design_of(configuration))),
-      baseline(simulation.checked(baseline_of(configuration))) {
+      trial(trial_of(configuration, "search.precision", notes)),
+      verification(verification_trial_of(configuration)),
+      design(trial.checked(design_of(configuration))),
+      baseline(trial.checked(baseline_of(configuration))) {
   try {
     verification.checked(design);
     verification.checked(baseline);
@@ -95,7 +93,7 @@ class SearchLog {
 
   void add(const EvaluationRecord& evaluation) {
     const SensorDesign design = problem_.design(evaluation.point);
-    const Performance& performance = problem_.last_performance();
+    const TriedDesign& tried = problem_.last_tried();
     const bool failed = !evaluation.failure.empty();
     record_.archive().add(
         {.stage = "search",
@@ -103,14 +101,14 @@ class SearchLog {
          .cost = evaluation.cost,
          .failure = evaluation.failure,
          .seconds = evaluation.seconds,
-         .performance = failed ? "" : to_json(performance).dump()});
+         .performance = failed ? "" : to_json(tried.performances.front()).dump()});
 
     table_.row().add(evaluation.index).add(evaluation.key).add(evaluation.cost);
     for (const char* metric : {"residual_wfe_nm", "fractional_loops"}) {
       if (failed) {
         table_.add("");
       } else {
-        table_.add(performance.mean_of(performance_metric(metric)).mean);
+        table_.add(tried.performances.front().mean_of(performance_metric(metric)).mean);
       }
     }
     table_.add(evaluation.failure);
@@ -153,27 +151,27 @@ SearchResult search_until_interrupted(PlacementProblem& problem, SearchOptions o
   return search(problem, options);
 }
 
-VerifiedDesign verify_and_archive(const SensorDesign& design, std::string_view name,
-                                  const Task& task, RunRecord& record, bool quiet) {
+TriedDesign verify_and_archive(const SensorDesign& design, std::string_view name, const Task& task,
+                               RunRecord& record, bool quiet) {
   ProgressLine progress(quiet);
   progress.show(
       fmt::format("verification: {} on {} fresh screens", name, task.verification.screen_count()));
   const auto start = Clock::now();
-  VerifiedDesign verified = verify(design, task.verification, task.cost);
+  TriedDesign verified = task.verification.run(design);
   record.archive().add(
       {.stage = "verify",
        .design = to_json(design, task.telescope, task.seeing.fried_parameter).dump(),
        .cost = mean_and_standard_error(verified.costs).mean,
        .failure = "",
        .seconds = seconds_since(start),
-       .performance = to_json(verified.performance).dump()});
+       .performance = to_json(verified.performances.front()).dump()});
   return verified;
 }
 
-Json design_object(const VerifiedDesign& verified, const Task& task) {
+Json design_object(const TriedDesign& verified, const Task& task) {
   Json json = to_json(verified.design, task.telescope, task.seeing.fried_parameter);
   json["cost"] = to_json(mean_and_standard_error(verified.costs));
-  json["performance"] = to_json(verified.performance);
+  json["performance"] = to_json(verified.performances.front());
   return json;
 }
 
@@ -209,7 +207,7 @@ std::string_view ending_text(Termination termination) {
   return "until it was interrupted";
 }
 
-std::string verdict_text(const Improvement& improvement, const VerifiedDesign& baseline) {
+std::string verdict_text(const Improvement& improvement, const TriedDesign& baseline) {
   switch (improvement.verdict) {
     case Verdict::better:
       return fmt::format(
@@ -231,26 +229,27 @@ std::string verdict_text(const Improvement& improvement, const VerifiedDesign& b
 }
 
 void print_result(const Task& task, const SearchResult& result, std::string_view precision,
-                  double search_seconds, const VerifiedDesign& best, const VerifiedDesign& baseline,
+                  double search_seconds, const TriedDesign& best, const TriedDesign& baseline,
                   const Improvement& gain) {
   for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
   fmt::print("Tried {} designs on {} screens in {} precision in {}, {}{}.\n\n", result.evaluations,
-             task.simulation.screen_count(), precision, duration_text(search_seconds),
+             task.trial.screen_count(), precision, duration_text(search_seconds),
              ending_text(result.termination),
              result.failures > 0
                  ? fmt::format("; {} of them failed, see search.csv", result.failures)
                  : "");
   fmt::print("Best design, planes in visiting order:\n{}\n",
-             planes_table(best.design, task.telescope, task.seeing, &best.performance));
-  fmt::print("Baseline:\n{}\n",
-             planes_table(baseline.design, task.telescope, task.seeing, &baseline.performance));
+             planes_table(best.design, task.telescope, task.seeing, &best.performances.front()));
+  fmt::print("Baseline:\n{}\n", planes_table(baseline.design, task.telescope, task.seeing,
+                                             &baseline.performances.front()));
   fmt::print("Both on the same {} fresh screens, true field {} samples across the pupil:\n{}",
-             task.verification.screen_count(), task.verification.truth_samples(),
-             performance_table({{"best design", &best.performance, best.costs},
-                                {"baseline", &baseline.performance, baseline.costs}}));
+             task.verification.screen_count(),
+             task.verification.conditions().front().simulation->truth_samples(),
+             performance_table({{"best design", &best.performances.front(), best.costs},
+                                {"baseline", &baseline.performances.front(), baseline.costs}}));
   fmt::print("\n{}\n{}", verdict_text(gain, baseline),
-             captured_energy_warnings(best.design, best.performance));
+             captured_energy_warnings(best.design, best.performances.front()));
 }
 
 }  // namespace
@@ -261,15 +260,15 @@ void run_optimize(const CommandLine& command_line) {
   const Task task(configuration);
   RunRecord record(command_line);
 
-  PlacementProblem problem(task.simulation, *task.layout, task.design, task.cost);
+  PlacementProblem problem(task.trial, *task.layout, task.design);
   SearchLog log(task, problem, record, command_line.quiet);
   const auto search_start = Clock::now();
   const SearchResult result = search_until_interrupted(problem, task.search, log);
   const double search_seconds = seconds_since(search_start);
 
-  const VerifiedDesign best = verify_and_archive(problem.design(result.best->point), "best design",
-                                                 task, record, command_line.quiet);
-  const VerifiedDesign baseline =
+  const TriedDesign best = verify_and_archive(problem.design(result.best->point), "best design",
+                                              task, record, command_line.quiet);
+  const TriedDesign baseline =
       verify_and_archive(task.baseline, "baseline", task, record, command_line.quiet);
   const Improvement gain = improvement(best, baseline);
 
@@ -286,7 +285,7 @@ void run_optimize(const CommandLine& command_line) {
        {"evaluations", result.evaluations},
        {"cache_hits", result.cache_hits},
        {"failures", result.failures},
-       {"reconstructions", (result.evaluations - result.failures) * task.simulation.screen_count() +
+       {"reconstructions", (result.evaluations - result.failures) * task.trial.screen_count() +
                                2 * task.verification.screen_count()},
        {"wall_seconds", seconds_since(start)},
        {"search_seconds", search_seconds},

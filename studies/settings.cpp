@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -69,6 +70,14 @@ int verification_screens(const Configuration& configuration) {
   return configuration.is_set("verify.screens")
              ? configuration.integer("verify.screens")
              : std::max(64, 4 * configuration.integer("screens.count"));
+}
+
+Condition condition_of(const Configuration& configuration, const Telescope& telescope,
+                       std::vector<PhaseScreen> screens, const SimulationOptions& options) {
+  const double fried_parameter = seeing_of(configuration, telescope).fried_parameter;
+  return {.name = fmt::format("D/r0 = {:.4g}", telescope.diameter / fried_parameter),
+          .simulation = std::make_shared<const Simulation>(telescope, std::move(screens), options),
+          .fried_parameter = fried_parameter};
 }
 
 std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
@@ -254,17 +263,18 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
                            most);
 }
 
-Simulation simulation_of(const Configuration& configuration, std::string_view precision_key,
-                         std::vector<std::string>& notes) {
+DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
+                     std::vector<std::string>& notes) {
   const Telescope telescope = telescope_of(configuration);
   const SimulationOptions options = simulation_options_of(configuration, precision_key);
   // Before the screens, which may take long.
   simulated_design(design_of(configuration), telescope, options.truth,
                    truth_samples(configuration));
-  return {telescope, screens_of(configuration, notes), options};
+  return {{condition_of(configuration, telescope, screens_of(configuration, notes), options)},
+          cost_of(configuration)};
 }
 
-Simulation verification_of(const Configuration& configuration) {
+DesignTrial verification_trial_of(const Configuration& configuration) {
   const Telescope telescope = telescope_of(configuration);
   const std::uint64_t seed = configuration.seed("verify.seed");
   const int factor = configuration.integer("verify.truth_factor");
@@ -286,10 +296,12 @@ Simulation verification_of(const Configuration& configuration) {
                     "at most {} are allowed",
                     std::floor(max_grid_width / search_width), search_width, max_grid_width));
   }
-  return {telescope,
-          simulated_screens(configuration, telescope, truth_samples(configuration) * factor,
+  return {{condition_of(configuration, telescope,
+                        simulated_screens(
+                            configuration, telescope, truth_samples(configuration) * factor,
                             verification_screens(configuration), "verify.screens", "verify.seed"),
-          options};
+                        options)},
+          cost_of(configuration)};
 }
 
 }  // namespace nlcwfs

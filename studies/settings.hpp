@@ -5,6 +5,7 @@
 #include "model/simulation.hpp"
 #include "model/telescope.hpp"
 #include "objectives/design_cost.hpp"
+#include "objectives/design_trial.hpp"
 #include "objectives/plane_layout.hpp"
 #include "studies/configuration.hpp"
 
@@ -53,13 +54,14 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
                                     std::vector<std::string>& notes,
                                     int most = std::numeric_limits<int>::max());
 
-/// The simulation of the sections screens and simulation; precision and notes as above.
-Simulation simulation_of(const Configuration& configuration, std::string_view precision_key,
-                         std::vector<std::string>& notes);
+/// What designs are tried under: the simulations of the sections screens and simulation; precision
+/// and notes as above.
+DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
+                     std::vector<std::string>& notes);
 
-/// The simulation that results are verified in: verify.screens fresh screens of verify.seed, on a
-/// truth verify.truth_factor times as fine, in double precision. A matched truth that is refined no
+/// The trial that results are verified in: verify.screens fresh screens of verify.seed, on a truth
+/// verify.truth_factor times as fine, in double precision. A matched truth that is refined no
 /// longer matches the reconstruction's grid, so it becomes an extended one.
-Simulation verification_of(const Configuration& configuration);
+DesignTrial verification_trial_of(const Configuration& configuration);
 
 }  // namespace nlcwfs

@@ -147,6 +147,18 @@ TEST_P(SimulationTruth, AScreensResultDoesNotDependOnTheOthers) {
   expect_identical(evaluate(design_, {screens_[0]}, options_), first);
 }
 
+TEST_P(SimulationTruth, AScreensResultIsTheSameInABlock) {
+  design_.detector.photons = 1e5;
+  const Performance all = evaluate(design_, screens_, options_);
+  const Simulation simulation({}, screens_, options_);
+  for (int first = 0; first < simulation.screen_count(); ++first) {
+    for (int count = 1; first + count <= simulation.screen_count(); ++count) {
+      const auto begin = all.screens.begin() + first;
+      expect_identical(simulation.evaluate(design_, first, count), {{begin, begin + count}});
+    }
+  }
+}
+
 TEST_P(SimulationTruth, ImagesKeptFromOtherDesignsChangeNothing) {
   // One plane or more in common, in another order, seen by another detector, with noise or none.
   std::vector<SensorDesign> designs(5, design_);

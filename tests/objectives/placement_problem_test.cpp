@@ -22,28 +22,27 @@ DesignCost cost_in_waves(const Telescope& telescope) {
 
 TEST(PlacementProblem, CostIsTheMeanOfTheScreensCosts) {
   const Telescope telescope;
-  const Simulation simulation = tiny_simulation(telescope);
+  const DesignTrial trial({tiny_condition(telescope)}, cost_in_waves(telescope));
   const SymmetricLayout layout = default_layout(telescope);
   const SensorDesign design = tiny_design(telescope);
-  const DesignCost cost = cost_in_waves(telescope);
-  PlacementProblem problem(simulation, layout, design, cost);
+  PlacementProblem problem(trial, layout, design);
 
   const SearchPoint point = layout.point_of(design.planes).value();
   const double found = problem.cost(point);
-  const std::vector<double> costs = cost.per_screen(simulation.evaluate(design), design);
-  EXPECT_NEAR(found, (costs.at(0) + costs.at(1)) / 2.0, 1e-9 * found);
-  ASSERT_EQ(problem.last_performance().screens.size(), 2u);
-  EXPECT_EQ(cost.per_screen(problem.last_performance(), design).size(), 2u);
+  const std::vector<double> costs = trial.run(problem.design(point)).costs;
+  EXPECT_DOUBLE_EQ(found, (costs.at(0) + costs.at(1)) / 2.0);
+  EXPECT_EQ(problem.last_tried().costs, costs);
+  EXPECT_EQ(problem.last_tried().performances.front().screens.size(), 2u);
 }
 
 TEST(PlacementProblem, VariesThePlanesAlone) {
   const Telescope telescope;
-  const Simulation simulation = tiny_simulation(telescope);
+  const DesignTrial trial({tiny_condition(telescope)}, cost_in_waves(telescope));
   const SymmetricLayout layout = default_layout(telescope);
   SensorDesign design = tiny_design(telescope);
   design.reconstruction.relaxation_start = 0.3;
   design.detector.photons = 1e5;
-  const PlacementProblem problem(simulation, layout, design, {});
+  const PlacementProblem problem(trial, layout, design);
   const SearchPoint point{5, Eigen::Vector2d(-3.0, -1.5)};
   const SensorDesign varied = problem.design(point);
   EXPECT_EQ(varied.planes, layout.planes(point));
@@ -54,9 +53,9 @@ TEST(PlacementProblem, VariesThePlanesAlone) {
 
 TEST(PlacementProblem, EqualDesignsHaveEqualKeysAndOthersDoNot) {
   const Telescope telescope;
-  const Simulation simulation = tiny_simulation(telescope);
+  const DesignTrial trial({tiny_condition(telescope)}, cost_in_waves(telescope));
   const SymmetricLayout layout = default_layout(telescope);
-  const PlacementProblem problem(simulation, layout, tiny_design(telescope), {});
+  const PlacementProblem problem(trial, layout, tiny_design(telescope));
   const auto key_of = [&](const std::vector<double>& planes) {
     return problem.key(layout.point_of(planes).value());
   };
@@ -82,9 +81,9 @@ struct Visits {
 };
 
 Visits search_at(const Telescope& telescope) {
-  const Simulation simulation = tiny_simulation(telescope);
+  const DesignTrial trial({tiny_condition(telescope)}, cost_in_waves(telescope));
   const SymmetricLayout layout = default_layout(telescope);
-  PlacementProblem problem(simulation, layout, tiny_design(telescope), cost_in_waves(telescope));
+  PlacementProblem problem(trial, layout, tiny_design(telescope));
   Visits visits;
   SearchOptions options;
   options.evaluation.budget = 40;

@@ -129,16 +129,16 @@ TEST(Settings, AFreeLayoutHasAVariableForEachPlaneAndASymmetricOneForEachPair) {
 
 TEST(Settings, TheVerificationsScreensMustBeFresh) {
   EXPECT_THAT(message_of([] {
-                verification_of(with({{"verify.seed", "7"}, {"screens.seed", "7"}}));
+                verification_trial_of(with({{"verify.seed", "7"}, {"screens.seed", "7"}}));
               }),
               HasSubstr("verify.seed = 7: another seed than screens.seed"));
 }
 
 TEST(Settings, TheVerificationHasFourTimesTheSearchsScreensUnlessSaidOtherwise) {
   const auto screens = [](const char* count) {
-    return verification_of(with({{"screens.count", count},
-                                 {"detector.pupil_pixels", "16"},
-                                 {"simulation.pupil_samples", "16"}}))
+    return verification_trial_of(with({{"screens.count", count},
+                                       {"detector.pupil_pixels", "16"},
+                                       {"simulation.pupil_samples", "16"}}))
         .screen_count();
   };
   EXPECT_EQ(screens("2"), 64);
@@ -158,8 +158,8 @@ TEST(Settings, TheVerificationsTruthIsFinerAndNoLongerMatched) {
                                             {"detector.pupil_pixels", "16"},
                                             {"verify.screens", "2"},
                                             {"verify.truth_factor", "2"}});
-  const Simulation verification = verification_of(configuration);
-  EXPECT_EQ(verification.truth_samples(), 32);
+  const DesignTrial verification = verification_trial_of(configuration);
+  EXPECT_EQ(verification.conditions().front().simulation->truth_samples(), 32);
   EXPECT_EQ(verification.screen_count(), 2);
   // A matched simulation would widen the detector to the reconstruction's window.
   SensorDesign design = design_of(configuration);

@@ -1,6 +1,4 @@
-#include "objectives/verified_design.hpp"
-
-#include "tests/objectives/tiny_simulation.hpp"
+#include "objectives/design_comparison.hpp"
 
 #include <cmath>
 
@@ -9,7 +7,7 @@
 namespace nlcwfs {
 namespace {
 
-VerifiedDesign with_costs(std::vector<double> costs) { return {{}, {}, std::move(costs)}; }
+TriedDesign with_costs(std::vector<double> costs) { return {{}, {}, std::move(costs)}; }
 
 TEST(Improvement, IsPairedScreenByScreen) {
   // The screens differ by 100, the designs by 1 +- 0.5 on each: only pairs see it.
@@ -22,8 +20,8 @@ TEST(Improvement, IsPairedScreenByScreen) {
 }
 
 TEST(Improvement, IsAntisymmetric) {
-  const VerifiedDesign one = with_costs({1.0, 2.0, 3.5});
-  const VerifiedDesign other = with_costs({2.0, 3.1, 4.4});
+  const TriedDesign one = with_costs({1.0, 2.0, 3.5});
+  const TriedDesign other = with_costs({2.0, 3.1, 4.4});
   const Improvement there = improvement(one, other);
   const Improvement back = improvement(other, one);
   EXPECT_DOUBLE_EQ(there.cost.mean, -back.cost.mean);
@@ -53,26 +51,11 @@ TEST(Improvement, WithinStudentsQuantileIsChance) {
 }
 
 TEST(Improvement, OfADesignOnItselfIsZeroAndIndistinguishable) {
-  const VerifiedDesign design = with_costs({1.0, 5.0, 2.0});
+  const TriedDesign design = with_costs({1.0, 5.0, 2.0});
   const Improvement found = improvement(design, design);
   EXPECT_EQ(found.cost.mean, 0.0);
   EXPECT_EQ(found.cost.standard_error, 0.0);
   EXPECT_EQ(found.verdict, Verdict::indistinguishable);
-}
-
-TEST(Verify, CostsEachScreenOfTheVerification) {
-  const Telescope telescope;
-  const Simulation simulation = tiny_simulation(telescope);
-  const SensorDesign design = tiny_design(telescope);
-  const DesignCost cost{.loop_weight = 0.7};
-  const VerifiedDesign verified = verify(design, simulation, cost);
-  EXPECT_EQ(verified.design.planes, design.planes);
-  ASSERT_EQ(verified.costs.size(), 2u);
-  for (int screen : {0, 1}) {
-    const ScreenPerformance& performance = verified.performance.screens.at(screen);
-    EXPECT_DOUBLE_EQ(verified.costs[screen], performance.wavefront.residual_wfe / 10e-9 +
-                                                 0.7 * performance.fractional_loops);
-  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "objectives/verified_design.hpp"
+#include "objectives/design_comparison.hpp"
 
 #include <cassert>
 #include <cmath>
@@ -16,14 +16,7 @@ double distinguishable(std::size_t screens) {
 
 }  // namespace
 
-VerifiedDesign verify(const SensorDesign& design, const Simulation& verification,
-                      const DesignCost& cost) {
-  VerifiedDesign verified{design, verification.evaluate(design), {}};
-  verified.costs = cost.per_screen(verified.performance, design);
-  return verified;
-}
-
-Improvement improvement(const VerifiedDesign& candidate, const VerifiedDesign& reference) {
+Improvement improvement(const TriedDesign& candidate, const TriedDesign& reference) {
   assert(candidate.costs.size() == reference.costs.size());
   std::vector<double> differences;
   for (std::size_t screen = 0; screen < candidate.costs.size(); ++screen) {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "model/performance.hpp"
+#include "model/sensor_design.hpp"
+#include "model/simulation.hpp"
+#include "objectives/design_cost.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nlcwfs {
+
+/// A seeing and a light level that designs are tried under.
+struct Condition {
+  std::string name;                              ///< for people: "D/r0 = 4, 100000 photons"
+  std::shared_ptr<const Simulation> simulation;  ///< conditions of one seeing share it
+  std::optional<double> light = {};              ///< replaces the design's photons
+  double fried_parameter = 0.0;                  ///< r0 at the telescope's wavelength, m
+};
+
+/// A design with how it did.
+struct TriedDesign {
+  SensorDesign design;
+  std::vector<Performance> performances;  ///< one per condition
+  std::vector<double> costs;              ///< of each screen; their mean is the design's cost
+  double violation = 0.0;                 ///< of the limits, relative; 0 = all kept
+};
+
+/// Tries designs under a list of conditions, and costs them. All conditions have as many screens;
+/// it is meant that they share the screens' random numbers, so that screen i is the same turbulence
+/// under each seeing. May be used by many threads; the result does not depend on their number.
+class DesignTrial {
+ public:
+  /// @pre there is a condition, and all have the same number of screens
+  DesignTrial(std::vector<Condition> conditions, DesignCost cost);
+
+  /// @param goes_on  asked with the costs of the first 4, 8, 16, ... screens: false ends the trial
+  ///                 with these screens alone; a screen's result does not depend on it
+  /// @throws InputError where a condition's simulation cannot have the design
+  TriedDesign run(const SensorDesign& design,
+                  const std::function<bool(std::span<const double>)>& goes_on = {}) const;
+
+  /// See simulated_design.
+  /// @throws InputError where a condition's simulation cannot have the design
+  SensorDesign checked(SensorDesign design) const;
+
+  int screen_count() const { return conditions_.front().simulation->screen_count(); }
+  const std::vector<Condition>& conditions() const { return conditions_; }
+  const DesignCost& cost() const { return cost_; }
+
+ private:
+  std::vector<Condition> conditions_;
+  DesignCost cost_;
+};
+
+}  // namespace nlcwfs

@@ -1,0 +1,116 @@
+#include "objectives/design_trial.hpp"
+
+#include "model/input_error.hpp"
+#include "tests/objectives/tiny_simulation.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::ElementsAre;
+
+class DesignTrialTest : public testing::Test {
+ protected:
+  DesignTrial trial(int screen_count, const DesignCost& cost = {.loop_weight = 0.7}) const {
+    return {{tiny_condition(telescope_, 4.0, screen_count)}, cost};
+  }
+
+  Telescope telescope_;
+  SensorDesign design_ = tiny_design(telescope_);
+};
+
+TEST_F(DesignTrialTest, CostsEachScreen) {
+  const TriedDesign tried = trial(3).run(design_);
+  EXPECT_EQ(tried.design.planes, design_.planes);
+  ASSERT_EQ(tried.performances.size(), 1u);
+  ASSERT_EQ(tried.costs.size(), 3u);
+  for (std::size_t screen : {0, 1, 2}) {
+    const ScreenPerformance& performance = tried.performances.front().screens.at(screen);
+    EXPECT_DOUBLE_EQ(tried.costs[screen], performance.wavefront.residual_wfe / 10e-9 +
+                                              0.7 * performance.fractional_loops);
+  }
+  EXPECT_EQ(tried.violation, 0.0);
+}
+
+TEST_F(DesignTrialTest, GoesOnInBlocksThatDouble) {
+  const DesignTrial twenty = trial(20);
+  const std::vector<double> all = twenty.run(design_).costs;
+  std::vector<std::size_t> asked;
+  const TriedDesign tried = twenty.run(design_, [&](std::span<const double> costs) {
+    asked.push_back(costs.size());
+    EXPECT_TRUE(std::ranges::equal(costs, std::span(all).first(costs.size())));
+    return true;
+  });
+  EXPECT_THAT(asked, ElementsAre(4, 8, 16)) << "not after the last screen";
+  EXPECT_EQ(tried.costs, all) << "bit for bit";
+  EXPECT_EQ(tried.performances.front().screens.size(), 20u);
+}
+
+TEST_F(DesignTrialTest, EndsWhereItIsNotToGoOn) {
+  const DesignTrial twenty = trial(20);
+  const TriedDesign tried =
+      twenty.run(design_, [](std::span<const double> costs) { return costs.size() < 8; });
+  EXPECT_EQ(tried.costs.size(), 8u);
+  EXPECT_EQ(tried.performances.front().screens.size(), 8u);
+  const TriedDesign all = twenty.run(design_);
+  EXPECT_TRUE(std::ranges::equal(tried.costs, std::span(all.costs).first(8)));
+}
+
+TEST_F(DesignTrialTest, IsNotAskedWhereTheFirstBlockIsAllThereIs) {
+  for (const int screens : {1, 4}) {
+    const TriedDesign tried = trial(screens).run(design_, [](std::span<const double>) {
+      ADD_FAILURE();
+      return false;
+    });
+    EXPECT_EQ(tried.costs.size(), static_cast<std::size_t>(screens));
+  }
+}
+
+TEST_F(DesignTrialTest, DoesNotDependOnTheNumberOfThreads) {
+  design_.detector.photons = 1e4;
+  const auto costs_on = [&](int threads) {
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return trial(5).run(design_).costs; });
+  };
+  EXPECT_EQ(costs_on(1), costs_on(3));
+}
+
+TEST_F(DesignTrialTest, TriesEachConditionsLightInItsSeeing) {
+  Condition bright = tiny_condition(telescope_, 4.0, 3);
+  Condition dim = bright;
+  dim.light = 1e3;
+  Condition bad = tiny_condition(telescope_, 8.0, 3);
+  const DesignTrial three({bright, dim, bad}, {});
+  const TriedDesign tried = three.run(design_);
+  ASSERT_EQ(tried.performances.size(), 3u);
+  std::vector<double> sums(3, 0.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    SensorDesign lit = design_;
+    if (k == 1) lit.detector.photons = 1e3;
+    const std::vector<double> alone =
+        DesignTrial({Condition{three.conditions()[k].name, three.conditions()[k].simulation}}, {})
+            .run(lit)
+            .costs;
+    const std::vector<double> costs = three.cost().per_screen(tried.performances[k], design_);
+    EXPECT_EQ(costs, alone) << k;
+    for (std::size_t i = 0; i < 3; ++i) sums[i] += alone[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(tried.costs[i], sums[i] / 3.0);
+}
+
+TEST_F(DesignTrialTest, ChecksADesignUnderEveryCondition) {
+  const DesignTrial two = trial(2);
+  EXPECT_EQ(two.checked(design_).planes, design_.planes);
+  design_.detector.pupil_pixels = 12;
+  EXPECT_THROW((void)two.checked(design_), InputError);
+  EXPECT_THROW((void)two.run(design_), InputError);
+}
+
+}  // namespace
+}  // namespace nlcwfs
