@@ -1,7 +1,7 @@
 // The search that the program makes unless told otherwise, all threads, without its verification.
 
 #include "benchmarks/default_problem.hpp"
-#include "objectives/placement_problem.hpp"
+#include "objectives/design_problem.hpp"
 #include "optimizer/chained_search.hpp"
 
 #include <memory>
@@ -13,12 +13,11 @@ namespace {
 
 void search_default(benchmark::State& state) {
   const Telescope telescope;
-  const DistanceRange range = default_distance_range(telescope);
-  const SymmetricLayout layout(telescope, range, range);
-  const SensorDesign design;
+  const DesignSpace space(telescope, {});
+  SensorDesign papers;
+  papers.planes = {-47e3, 47e3, -180e3, 180e3};
   SearchOptions options;
-  options.starts = {*layout.point_of(design.planes),
-                    *layout.point_of({-47e3, 47e3, -180e3, 180e3})};
+  options.starts = {*space.point_of(SensorDesign()), *space.point_of(papers)};
   int evaluations = 0;
   while (state.KeepRunning()) {
     const DesignTrial trial(
@@ -27,7 +26,7 @@ void search_default(benchmark::State& state) {
               telescope, default_screens(default_truth_samples(TruthModel::extended)),
               SimulationOptions{.precision = Precision::single_precision})}},
         DesignCost());
-    PlacementProblem problem(trial, layout, design);
+    DesignProblem problem(space, trial);
     evaluations += search(problem, options).evaluations;
   }
   state.counters["evaluations"] =

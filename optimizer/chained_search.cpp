@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_int_distribution.hpp>
 #include <fmt/format.h>
 
 namespace nlcwfs {
@@ -19,9 +20,24 @@ constexpr int designs_reported = 5;
 // between half and double of these.
 /// The global stage's share of the evaluations that are left for the continuous variables.
 constexpr double global_share = 0.3;
-/// A choice is refined for every so many evaluations that are left.
-constexpr int evaluations_per_refined_choice = 10;
-constexpr double no_cost = std::numeric_limits<double>::infinity();
+/// A slice is refined for every so many evaluations that are left.
+constexpr int evaluations_per_refined_slice = 10;
+/// Neighbouring slices are compared in one go up to this share of the evaluations that are left,
+/// but always up to so many (the orders of four planes).
+constexpr double neighbour_share = 0.25;
+constexpr int neighbours_always_compared = 24;
+
+/// Continuous variables in the middle of their ranges, discrete ones at their first value.
+SearchPoint centre_of(const std::vector<SubSpace>& sub_spaces, int sub_space) {
+  const std::vector<Variable>& variables =
+      sub_spaces[static_cast<std::size_t>(sub_space)].variables;
+  SearchPoint centre{sub_space, Eigen::VectorXd(variables.size())};
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const auto& [name, lower, upper, kind] = variables[i];
+    centre.x[Eigen::Index(i)] = kind == VariableKind::continuous ? 0.5 * (lower + upper) : lower;
+  }
+  return centre;
+}
 
 /// One search under way.
 class ChainedSearch {
@@ -37,14 +53,14 @@ class ChainedSearch {
   /// Returns where nothing is left to try. @throws SearchStopped at a limit
   void run() {
     begin_stage("starts");
-    for (const SearchPoint& start : starts_) evaluator_(start);
-    for (double cost_before = no_cost;;) {
+    evaluator_.evaluate(starts_);
+    for (EvaluatedDesign before;;) {
       search_globally();
-      compare_choices();
+      const bool all_compared = compare_neighbours();
       refine();
-      const double cost = cost_of(evaluator_.best());
-      if (!(cost < cost_before)) return;
-      cost_before = cost;
+      const EvaluatedDesign best = evaluator_.best().value_or(EvaluatedDesign{});
+      if (all_compared && !is_better(best, before)) return;
+      before = best;
     }
   }
 
@@ -68,42 +84,79 @@ class ChainedSearch {
     return evaluator_.best() ? evaluator_.best()->point : starts_.front();
   }
 
-  static double cost_of(const std::optional<EvaluatedDesign>& design) {
-    if (!design) return no_cost;
-    return design->cost;
-  }
-
-  double cost_of(int choice) const { return cost_of(evaluator_.best_of(choice)); }
-
   void search_globally() {
-    const int other_choices = evaluator_.choice_count() - 1;
+    const auto other_slices = static_cast<int>(neighbours(best_point()).size());
     const int share =
-        static_cast<int>(global_share * (evaluator_.evaluations_left() - other_choices));
+        static_cast<int>(global_share * (evaluator_.evaluations_left() - other_slices));
     if (method_.global.empty() || share < 1) return;
     begin_stage(method_.global);
-    const SearchPoint start = best_point();
-    minimize(method_.global, evaluator_, start.choice, start.x,
-             {.max_evaluations = share, .seed = seed_});
+    minimize(method_.global, evaluator_, best_point(), {.max_evaluations = share, .seed = seed_});
   }
 
-  void compare_choices() {
+  /// One discrete variable changed at a time, to each of its other values, and the other sub-spaces
+  /// with what they share with this one.
+  std::vector<SearchPoint> neighbours(const SearchPoint& point) const {
+    std::vector<SearchPoint> neighbours;
+    for (int other = 0; other < static_cast<int>(evaluator_.sub_spaces().size()); ++other) {
+      if (other != point.sub_space) neighbours.push_back(moved_to_sub_space(point, other));
+    }
+    Eigen::Index i = 0;
+    for (const Variable& variable : evaluator_.variables_of(point)) {
+      if (!variable.is_continuous()) {
+        for (double value = variable.lower; value <= variable.upper; ++value) {
+          if (value == point.x[i]) continue;
+          neighbours.push_back(point);
+          neighbours.back().x[i] = value;
+        }
+      }
+      ++i;
+    }
+    return neighbours;
+  }
+
+  /// The same values for variables of the same names, and those of the centre for others.
+  SearchPoint moved_to_sub_space(const SearchPoint& point, int sub_space) const {
+    SearchPoint moved = centre_of(evaluator_.sub_spaces(), sub_space);
+    const std::vector<Variable>& from = evaluator_.variables_of(point);
+    const std::vector<Variable>& to = evaluator_.variables_of(moved);
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      const auto same = std::ranges::find(from, to[i].name, &Variable::name);
+      if (same != from.end()) moved.x[Eigen::Index(i)] = point.x[same - from.begin()];
+    }
+    return moved;
+  }
+
+  /// @return false where there were too many to compare all
+  bool compare_neighbours() {
     begin_stage("choices");
-    const Eigen::VectorXd x = best_point().x;
-    for (const int choice : choices_by_cost()) evaluator_({choice, x});
+    std::vector<SearchPoint> points = neighbours(best_point());
+    const int affordable =
+        std::max(neighbours_always_compared,
+                 static_cast<int>(neighbour_share * evaluator_.evaluations_left()));
+    const bool all = static_cast<int>(points.size()) <= affordable;
+    if (!all) {
+      boost::random::mt19937_64 generator(seed_ +
+                                          static_cast<std::uint64_t>(evaluator_.evaluations()));
+      for (std::size_t i = 0; i < static_cast<std::size_t>(affordable); ++i) {
+        const boost::random::uniform_int_distribution<std::size_t> any_left(i, points.size() - 1);
+        std::swap(points[i], points[any_left(generator)]);
+      }
+      points.resize(static_cast<std::size_t>(affordable));
+    }
+    evaluator_.evaluate(points);
+    return all;
   }
 
-  /// Successive halving. A choice that stays in is resumed rather than begun again: minimize
-  /// replays the same path through the cache.
+  /// Successive halving. A slice that stays in is resumed rather than begun again: minimize replays
+  /// the same path through the cache.
   void refine() {
     const std::string& algorithm = method_.local.empty() ? method_.global : method_.local;
     begin_stage(algorithm);
     std::vector<SearchPoint> starts;
-    for (const int choice : choices_by_cost()) {
-      const auto& best = evaluator_.best_of(choice);
-      starts.push_back(best ? best->point : SearchPoint{choice, best_point().x});
-    }
-    const std::size_t affordable = 1 + static_cast<std::size_t>(evaluator_.evaluations_left() /
-                                                                evaluations_per_refined_choice);
+    for (const EvaluatedDesign& best : evaluator_.best_of_slices()) starts.push_back(best.point);
+    if (starts.empty()) starts.push_back(best_point());
+    const std::size_t affordable =
+        1 + static_cast<std::size_t>(evaluator_.evaluations_left() / evaluations_per_refined_slice);
     if (starts.size() > affordable) starts.resize(affordable);
 
     for (;;) {
@@ -111,23 +164,19 @@ class ChainedSearch {
       for (std::size_t count = starts.size(); count > 1; count = (count + 1) / 2) ++rounds;
       const int share = evaluator_.evaluations_left() / (rounds * static_cast<int>(starts.size()));
       for (const SearchPoint& start : starts) {
-        minimize(algorithm, evaluator_, start.choice, start.x,
+        minimize(algorithm, evaluator_, start,
                  {.max_evaluations = std::max(1, share), .seed = seed_});
       }
       if (starts.size() == 1) return;
-      std::stable_sort(starts.begin(), starts.end(), [&](const auto& a, const auto& b) {
-        return cost_of(a.choice) < cost_of(b.choice);
+      std::ranges::stable_sort(starts, [&](const SearchPoint& a, const SearchPoint& b) {
+        return is_better(best_of_slice(a), best_of_slice(b));
       });
       starts.resize((starts.size() + 1) / 2);
     }
   }
 
-  std::vector<int> choices_by_cost() const {
-    std::vector<int> order(static_cast<std::size_t>(evaluator_.choice_count()));
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return cost_of(a) < cost_of(b); });
-    return order;
+  EvaluatedDesign best_of_slice(const SearchPoint& point) const {
+    return evaluator_.best_of_slice(point).value_or(EvaluatedDesign{});
   }
 
   Evaluator& evaluator_;
@@ -139,7 +188,11 @@ class ChainedSearch {
 
 }  // namespace
 
-SearchMethod search_method(std::string_view optimizer, int variable_count) {
+SearchMethod search_method(std::string_view optimizer, const std::vector<SubSpace>& sub_spaces) {
+  int variable_count = std::numeric_limits<int>::max();
+  for (const SubSpace& sub_space : sub_spaces) {
+    variable_count = std::min(variable_count, sub_space.continuous_count());
+  }
   // Measured with 60 to 300 evaluations on the test problems of 2 to 6 variables, in boxes shifted
   // at random and, some, in rotated coordinates. direct_l beats crs2 on all of them, whose first
   // population alone takes 10 (n + 1) evaluations. sbplx copes best with failures, steps and
@@ -165,17 +218,9 @@ SearchMethod search_method(std::string_view optimizer, int variable_count) {
 
 SearchResult search(Problem& problem, const SearchOptions& options) {
   Evaluator evaluator(problem, options.evaluation);
-  const std::vector<Variable>& variables = evaluator.variables();
   std::vector<SearchPoint> starts = options.starts;
-  if (starts.empty()) {
-    Eigen::VectorXd centre(variables.size());
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      centre[i] = 0.5 * (variables[i].lower + variables[i].upper);
-    }
-    starts.push_back({0, centre});
-  }
-  ChainedSearch chain(evaluator,
-                      search_method(options.optimizer, static_cast<int>(variables.size())), starts,
+  if (starts.empty()) starts.push_back(centre_of(evaluator.sub_spaces(), 0));
+  ChainedSearch chain(evaluator, search_method(options.optimizer, evaluator.sub_spaces()), starts,
                       options.seed);
 
   SearchResult result;

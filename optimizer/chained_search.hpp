@@ -19,20 +19,21 @@ struct SearchMethod {
 /// The method that a name stands for: `GLOBAL+LOCAL` such as `direct_l+sbplx`, one algorithm alone
 /// (see nlopt_scope), or `auto`: direct_l+sbplx up to 2 variables, direct_l+nelder_mead above.
 /// @throws std::invalid_argument for an unknown name, for an algorithm in the wrong place, and for
-///   an algorithm that cannot search that few variables
-SearchMethod search_method(std::string_view optimizer, int variable_count);
+///   an algorithm that cannot search that space, naming one that can
+SearchMethod search_method(std::string_view optimizer, const std::vector<SubSpace>& sub_spaces);
 
 /// What to search with, and from where.
 struct SearchOptions {
-  std::string optimizer = "auto";        ///< see search_method
-  std::uint64_t seed = 1;                ///< of algorithms that draw random numbers
-  std::vector<SearchPoint> starts = {};  ///< to begin with; none = the centre of the first choice
-  EvaluatorOptions evaluation = {};      ///< budget, time limit, stopping, observer
+  std::string optimizer = "auto";  ///< see search_method
+  std::uint64_t seed = 1;          ///< of algorithms that draw random numbers
+  std::vector<SearchPoint> starts =
+      {};                            ///< to begin with; none = the centre of the first sub-space
+  EvaluatorOptions evaluation = {};  ///< budget, time limit, stopping, observer
 };
 
 /// A part of a search.
 struct SearchStage {
-  std::string name;     ///< `starts`, `choices` (every choice at the best point), or the algorithm
+  std::string name;     ///< `starts`, `choices` (the slices beside the best one), or the algorithm
   int evaluations = 0;  ///< new ones
 };
 
@@ -49,11 +50,13 @@ struct SearchResult {
   std::vector<SearchStage> stages;  ///< in order; their evaluations sum to `evaluations`
 };
 
-/// Searches a problem's choices and continuous variables within a budget:
+/// Searches a problem's sub-spaces within a budget:
 /// 1. the starting points;
-/// 2. a global search over the continuous variables at the best start's choice;
-/// 3. all choices at the best point so far;
-/// 4. a local search in each of the best few choices, ever longer in ever fewer of them (successive
+/// 2. a global search over the continuous variables in the best start's slice (a sub-space with
+///    given values of the discrete variables);
+/// 3. the slices beside the best point so far: one discrete variable changed at a time, and the
+///    other sub-spaces with what they share with this one;
+/// 4. a local search in each of the best few slices, ever longer in ever fewer of them (successive
 ///    halving, Jamieson & Talwalkar 2016);
 /// then 2 to 4 again from the best design, until such a round improves nothing or a limit is
 /// reached.

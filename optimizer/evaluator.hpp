@@ -1,16 +1,21 @@
 #pragma once
 
 #include "optimizer/problem.hpp"
+#include "optimizer/race.hpp"
 
+#include <any>
 #include <chrono>
 #include <exception>
 #include <functional>
+#include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace nlcwfs {
@@ -18,12 +23,14 @@ namespace nlcwfs {
 /// Why a search ended.
 enum class Termination {
   converged,         ///< nothing that the method knows to try improved the best design any more
+  target_reached,    ///< a design costs as little as was asked for
+  stagnated,         ///< too many evaluations in a row improved nothing
   budget_exhausted,  ///< all evaluations were used
   time_limit,        ///< the time limit was over
   stop_requested     ///< the caller asked to stop
 };
 
-/// The name of a termination: "converged", "budget_exhausted", "time_limit", "stop_requested".
+/// The name of a termination, as it is spelt here: "converged", "target_reached", ...
 std::string_view to_string(Termination termination);
 
 /// One evaluation of the cost, in the order in which they happened.
@@ -31,10 +38,15 @@ struct EvaluationRecord {
   int index = 0;  ///< counts from 1
   SearchPoint point;
   std::string key;
-  double cost = 0.0;       ///< NaN where the evaluation failed
-  double best_cost = 0.0;  ///< lowest cost so far, this one included; infinity before there is one
-  std::string failure;     ///< why the evaluation failed; empty where it did not
-  double seconds = 0.0;    ///< how long the cost took, s
+  double cost = 0.0;         ///< NaN where the evaluation failed
+  double violation = 0.0;    ///< of the limits
+  double best_cost = 0.0;    ///< of the best design so far, this one included; infinity before one
+  std::size_t samples = 0;   ///< that the cost is of
+  bool given_up = false;     ///< clearly worse than the best: the cost is an estimate
+  std::string failure = {};  ///< why the evaluation failed; empty where it did not
+  double seconds = 0.0;      ///< how long it took, s
+  std::vector<double> objectives = {};  ///< Assessment::objectives
+  std::any detail = {};                 ///< Assessment::detail
 };
 
 /// The limits of a search, and who watches it.
@@ -43,8 +55,15 @@ struct EvaluatorOptions {
   /// No evaluation starts later than this after the evaluator was made, s; the first always does.
   std::optional<double> time_limit = {};
   std::stop_token stop = {};  ///< no evaluation starts once a stop is requested
+  /// No evaluation starts once the best design keeps the limits and costs no more than this.
+  std::optional<double> target = {};
+  /// No evaluation starts after so many in a row that improved nothing; 0 = whatever they did.
+  int stagnation = 0;
+  /// The chance that a race (see Race) gives up a design that is as good as the best, at most;
+  /// 0 = no races: every design is assessed on all samples.
+  double race_significance = 0.0;
   /// Called after each new evaluation, in the thread of the search and before the problem is asked
-  /// for another cost. Its exceptions end the search and reach the caller.
+  /// for another cost (or batch of them). Its exceptions end the search and reach the caller.
   std::function<void(const EvaluationRecord&)> observer = {};
 };
 
@@ -84,12 +103,22 @@ class Evaluator {
   /// expected, of their order of magnitude so that optimizers that fit models survive it, and the
   /// same whenever the design is asked for again.
   ///
+  /// A design that does not keep its limits is answered with its cost and 100 (1 + |cost|) times
+  /// its violation on top.
+  ///
   /// @throws SearchStopped where a new evaluation is needed and none may start
   /// @throws SearchFailed after too many failures in a row
   double operator()(const SearchPoint& requested);
 
-  const std::vector<Variable>& variables() const { return variables_; }
-  int choice_count() const { return static_cast<int>(best_of_choice_.size()); }
+  /// The same of several points, whose new designs are assessed in parallel, some at a time. The
+  /// answers do not depend on the number of threads.
+  /// @throws as above; where not all new designs may be evaluated, the first ones are
+  std::vector<double> evaluate(const std::vector<SearchPoint>& requested);
+
+  const std::vector<SubSpace>& sub_spaces() const { return sub_spaces_; }
+  const std::vector<Variable>& variables_of(const SearchPoint& point) const {
+    return sub_spaces_[static_cast<std::size_t>(point.sub_space)].variables;
+  }
 
   int evaluations() const { return evaluations_; }
   int failures() const { return failures_; }
@@ -100,44 +129,62 @@ class Evaluator {
   /// limit, at the mean time per evaluation so far, comes first.
   int evaluations_left() const;
 
-  /// The design of the lowest cost so far; nothing before an evaluation succeeds.
+  /// The best design so far (see is_better); nothing before an evaluation succeeds.
   const std::optional<EvaluatedDesign>& best() const { return best_; }
 
-  /// The same among the points of one choice, whether evaluated there or known from the cache.
-  const std::optional<EvaluatedDesign>& best_of(int choice) const {
-    return best_of_choice_[static_cast<std::size_t>(choice)];
-  }
+  /// The best design of each slice that was tried, best first, whether evaluated there or known
+  /// from the cache. A slice is a sub-space with given values of the discrete variables.
+  std::vector<EvaluatedDesign> best_of_slices() const;
 
-  /// The best designs that differ, best first: of the points of one choice that are within 2 % of
-  /// each variable's range of a better one, only the better one counts.
+  /// The same of the slice that a point lies in.
+  std::optional<EvaluatedDesign> best_of_slice(const SearchPoint& point) const;
+
+  /// The best designs that differ, best first: of the points of one slice that are within 2 % of
+  /// each variable's range of a better one, only the better one counts. Designs that a race gave
+  /// up are not among them.
   std::vector<EvaluatedDesign> best_designs(int count) const;
 
  private:
   struct Answer {
-    double value;
+    EvaluatedDesign design;
+    double value;  ///< what optimizers are told
     bool failed;
   };
 
+  struct Evaluation {
+    EvaluationRecord record;
+    std::vector<double> costs;  ///< of the samples
+  };
+  /// A sub-space and the values of its discrete variables.
+  using Slice = std::pair<int, std::vector<double>>;
+
+  SearchPoint within_bounds(const SearchPoint& requested) const;
+  void evaluate_batch(std::span<const SearchPoint> requested, std::vector<double>& answers);
+  void assess(Evaluation& evaluation, const std::optional<Race>& race) const;
+  void commit(Evaluation& evaluation);
+  Slice slice_of(const SearchPoint& point) const;
+  bool is_close(const SearchPoint& a, const SearchPoint& b) const;
   double seconds_since_start() const;
-  void stop_at_limits() const;
+  /// @throws SearchStopped where none is allowed
+  int allowed_evaluations(int wanted) const;
+  std::optional<Race> race() const;
   double penalty() const;
-  void keep_if_best(const EvaluatedDesign& design);
 
   Problem& problem_;
   EvaluatorOptions options_;
-  std::vector<Variable> variables_;
-  Eigen::VectorXd lower_;
-  Eigen::VectorXd upper_;
+  std::vector<SubSpace> sub_spaces_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
   std::unordered_map<std::string, Answer> cache_;
-  std::vector<EvaluatedDesign> designs_;  ///< all successes, in order
+  std::vector<EvaluatedDesign> designs_;  ///< all successes on all samples, in order
   std::optional<EvaluatedDesign> best_;
-  std::vector<std::optional<EvaluatedDesign>> best_of_choice_;
+  std::vector<double> best_costs_;  ///< of the best design's samples
+  std::map<Slice, EvaluatedDesign> best_of_slice_;
   double worst_cost_ = 0.0;  ///< of the successes; meaningless before there is one
   int evaluations_ = 0;
   int failures_ = 0;
   int failures_in_a_row_ = 0;
+  int evaluations_without_improvement_ = 0;
   int cache_hits_ = 0;
   std::string last_failure_;
 };

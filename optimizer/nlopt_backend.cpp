@@ -41,8 +41,9 @@ const Algorithm& find_algorithm(std::string_view name, int variable_count) {
     if (algorithm.name == name) {
       if (variable_count >= algorithm.least_variables) return algorithm;
       throw std::invalid_argument(
-          fmt::format("{} needs at least {} variables, this problem has {}: take sbplx", name,
-                      algorithm.least_variables, variable_count));
+          fmt::format("{} needs at least {} continuous variable{}, this problem has {}: take {}",
+                      name, algorithm.least_variables, algorithm.least_variables == 1 ? "" : "s",
+                      variable_count, variable_count == 0 ? "dlib" : "sbplx"));
     }
   }
   throw std::invalid_argument(
@@ -61,11 +62,12 @@ NloptPointer create(nlopt_algorithm id, int variable_count) {
 /// some of its algorithms go on asking for a while after they were told to stop.
 struct Objective {
   Evaluator& evaluator;
-  int choice;
+  SearchPoint point;  ///< its continuous values are set for each question
   int max_evaluations;
   nlopt_opt optimizer;
-  Eigen::VectorXd lower;
-  Eigen::VectorXd range;
+  std::vector<Eigen::Index> indices = {};  ///< of the continuous variables in the point
+  Eigen::VectorXd lower = {};
+  Eigen::VectorXd range = {};
   int first_evaluation = evaluator.evaluations();
   bool stopped = false;
   std::exception_ptr error = nullptr;
@@ -78,7 +80,8 @@ struct Objective {
     if (!unit.allFinite()) stop();
     if (stopped) return 0.0;
     try {
-      const double cost = evaluator({choice, lower + range.cwiseProduct(unit)});
+      point.x(indices) = lower + range.cwiseProduct(unit);
+      const double cost = evaluator(point);
       if (evaluations() >= max_evaluations) stop();
       return cost;
     } catch (...) {
@@ -107,26 +110,28 @@ SearchScope nlopt_scope(std::string_view algorithm, int variable_count) {
   return find_algorithm(algorithm, variable_count).scope;
 }
 
-StageResult minimize(std::string_view algorithm, Evaluator& evaluator, int choice,
-                     const Eigen::VectorXd& start, const StageOptions& options) {
+StageResult minimize(std::string_view algorithm, Evaluator& evaluator, const SearchPoint& start,
+                     const StageOptions& options) {
   assert(options.max_evaluations >= 1 && options.initial_step > 0.0 && options.initial_step <= 0.5);
-  const std::vector<Variable>& variables = evaluator.variables();
-  const int count = static_cast<int>(variables.size());
+  const std::vector<Variable>& variables = evaluator.variables_of(start);
+  const int count =
+      evaluator.sub_spaces()[static_cast<std::size_t>(start.sub_space)].continuous_count();
   const nlopt_algorithm id = find_algorithm(algorithm, count).id;
   const NloptPointer optimizer = create(id, count);
 
-  Objective objective{evaluator,
-                      choice,
-                      options.max_evaluations,
-                      optimizer.get(),
-                      Eigen::VectorXd(count),
-                      Eigen::VectorXd(count)};
-  for (int i = 0; i < count; ++i) {
-    objective.lower[i] = variables[i].lower;
-    objective.range[i] = variables[i].upper - variables[i].lower;
+  Objective objective{evaluator, start, options.max_evaluations, optimizer.get()};
+  objective.lower.resize(count);
+  objective.range.resize(count);
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    if (!variables[i].is_continuous()) continue;
+    const auto place = static_cast<Eigen::Index>(objective.indices.size());
+    objective.lower[place] = variables[i].lower;
+    objective.range[place] = variables[i].upper - variables[i].lower;
+    objective.indices.push_back(static_cast<Eigen::Index>(i));
   }
+  const Eigen::VectorXd start_x = start.x(objective.indices);
   Eigen::VectorXd unit_x =
-      (start - objective.lower).cwiseQuotient(objective.range).cwiseMax(0.0).cwiseMin(1.0);
+      (start_x - objective.lower).cwiseQuotient(objective.range).cwiseMax(0.0).cwiseMin(1.0);
 
   const auto cost = [](unsigned, const double* x, double*, void* data) {
     return static_cast<Objective*>(data)->answer(x);

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 namespace nlcwfs {
 
 /// What an algorithm searches: the whole box, or the surroundings of its start.
@@ -29,7 +27,7 @@ std::vector<std::string_view> nlopt_algorithms();
 /// Local: `sbplx` (subplex, Rowan 1990), `nelder_mead` (Nelder & Mead 1965, with bounds), `bobyqa`
 /// (quadratic models, Powell 2009), `cobyla` (linear models, Powell 1994), `praxis` (principal
 /// axes, Brent 1973; points outside the bounds are moved onto them).
-/// @param variable_count  the number of variables that it is meant for
+/// @param variable_count  the number of continuous variables that it is meant for
 /// @throws std::invalid_argument for an unknown name, listing those that there are, and for an
 ///   algorithm that cannot search that few variables, naming one that can
 SearchScope nlopt_scope(std::string_view algorithm, int variable_count);
@@ -51,14 +49,15 @@ struct StageResult {
   bool finished = false;
 };
 
-/// Minimises the cost of one choice with an algorithm of NLopt (see nlopt_scope for the names). The
-/// run with the same arguments and a higher limit takes the same path, through the evaluator's
-/// cache at no cost, so this is also how a run is resumed.
-/// @param start  where local algorithms start, and one of the first points of crs2, mlsl, isres and
-/// esch
+/// Minimises the cost over the continuous variables of a slice (see Evaluator::best_of_slices) with
+/// an algorithm of NLopt (see nlopt_scope for the names). The run with the same arguments and a
+/// higher limit takes the same path, through the evaluator's cache at no cost, so this is also how
+/// a run is resumed.
+/// @param start  gives the slice; where local algorithms start, and one of the first points of
+///               crs2, mlsl, isres and esch
 /// @throws std::invalid_argument see nlopt_scope
 /// @throws whatever the evaluator throws: SearchStopped, SearchFailed, exceptions of the observer
-StageResult minimize(std::string_view algorithm, Evaluator& evaluator, int choice,
-                     const Eigen::VectorXd& start, const StageOptions& options);
+StageResult minimize(std::string_view algorithm, Evaluator& evaluator, const SearchPoint& start,
+                     const StageOptions& options);
 
 }  // namespace nlcwfs

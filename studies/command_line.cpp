@@ -36,8 +36,12 @@ std::string value_name(const ConfigurationKey& key) {
       return "LENGTH";
     case Kind::length_list:
       return "LENGTHS";
-    case Kind::length_range:
+    case Kind::domain:
       return "MIN:MAX";
+    case Kind::axis:
+      return "MIN:MAX:N";
+    case Kind::orders:
+      return "ORDERS";
     case Kind::time:
       return "TIME";
     case Kind::ramp:

@@ -47,6 +47,23 @@ std::pair<std::string_view, std::string_view> section_and_name(const Configurati
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
+std::string_view element_text(Kind element) {
+  switch (element) {
+    case Kind::length:
+      return "lengths in nm, um, mm, cm, m or km";
+    case Kind::time:
+      return "times in us, ms, s, min or h";
+    case Kind::integer:
+      return "whole numbers";
+    default:
+      return "numbers";
+  }
+}
+
+ValueParser parser_of(const ConfigurationKey& key) {
+  return [&key](std::string_view value) { return key.element_of(value); };
+}
+
 /// The source without the line of a file: a layer's values override those of the layers before it.
 std::string_view layer_of(std::string_view source) {
   return source.substr(0, source.rfind(", line "));
@@ -76,10 +93,14 @@ std::string_view ConfigurationKey::unit_text() const {
   switch (kind) {
     case Kind::length:
     case Kind::length_list:
-    case Kind::length_range:
       return "m";
     case Kind::time:
       return "s";
+    case Kind::domain:
+    case Kind::axis:
+      if (element == Kind::length) return "m";
+      if (element == Kind::time) return "s";
+      return unit;
     default:
       return unit;
   }
@@ -102,9 +123,22 @@ std::string ConfigurationKey::allowed() const {
     case Kind::length_list:
       return fmt::format("lengths{} in nm, um, mm, cm, m or km, separated by commas{}", range,
                          such_as);
-    case Kind::length_range:
-      return fmt::format("min:max, lengths{} in nm, um, mm, cm, m or km with min < max{}", range,
-                         such_as);
+    case Kind::domain:
+      if (element == Kind::choice) {
+        return fmt::format("one or more of {}, separated by commas", fmt::join(choices, ", "));
+      }
+      return fmt::format("min:max or min:max:log, or a list separated by commas, of {}{}{}",
+                         element_text(element), range, such_as);
+    case Kind::axis:
+      if (element == Kind::choice) {
+        return fmt::format("one or more of {}, separated by commas", fmt::join(choices, ", "));
+      }
+      return fmt::format(
+          "min:max:count or min:max:count:log, or a list separated by commas, of "
+          "{}{}{}",
+          element_text(element), range, such_as);
+    case Kind::orders:
+      return fmt::format("all, or orders of plane numbers separated by commas{}", such_as);
     case Kind::time:
       return fmt::format("a time{} in us, ms, s, min or h{}", range, such_as);
     case Kind::ramp:
@@ -125,6 +159,9 @@ bool ConfigurationKey::accepts(std::string_view value) const {
   const auto both_within = [this](auto pair) {
     return pair && bounds.contain(pair->first) && bounds.contain(pair->second);
   };
+  const auto all_within = [this](const std::vector<double>& values) {
+    return std::ranges::all_of(values, [this](double v) { return bounds.contain(v); });
+  };
   switch (kind) {
     case Kind::number:
       return within(parse_number(value));
@@ -136,10 +173,24 @@ bool ConfigurationKey::accepts(std::string_view value) const {
       return within(parse_length(value));
     case Kind::length_list: {
       const auto list = parse_lengths(value);
-      return list && std::ranges::all_of(*list, [this](double z) { return bounds.contain(z); });
+      return list && all_within(*list);
     }
-    case Kind::length_range:
-      return both_within(parse_length_range(value));
+    case Kind::domain: {
+      const auto domain = parse_domain(value, parser_of(*this));
+      if (!domain) return false;
+      if (const auto* list = std::get_if<std::vector<double>>(&*domain)) return all_within(*list);
+      const ValueRange& range = std::get<ValueRange>(*domain);
+      return element != Kind::choice && bounds.contain(range.lower) && bounds.contain(range.upper);
+    }
+    case Kind::axis: {
+      const auto axis = parse_axis(value, parser_of(*this));
+      // A range of whole numbers or words may have places between them.
+      return axis && all_within(*axis) &&
+             (value.find(':') == std::string_view::npos || element == Kind::number ||
+              element == Kind::length || element == Kind::time);
+    }
+    case Kind::orders:
+      return parse_orders(value).has_value();
     case Kind::time:
       return within(parse_time(value));
     case Kind::ramp:
@@ -152,6 +203,25 @@ bool ConfigurationKey::accepts(std::string_view value) const {
   }
   assert(false);
   return false;
+}
+
+std::optional<double> ConfigurationKey::element_of(std::string_view value) const {
+  switch (element) {
+    case Kind::length:
+      return parse_length(value);
+    case Kind::time:
+      return parse_time(value);
+    case Kind::integer: {
+      const auto integer = parse_integer(value);
+      return integer ? std::optional<double>(*integer) : std::nullopt;
+    }
+    case Kind::choice: {
+      const auto word = std::ranges::find(choices, trimmed(value));
+      return word == choices.end() ? std::nullopt : std::optional<double>(word - choices.begin());
+    }
+    default:
+      return parse_number(value);
+  }
 }
 
 Configuration::Configuration() {
@@ -276,8 +346,16 @@ std::vector<double> Configuration::lengths(std::string_view key) const {
   return parse_lengths(text_of(key, Kind::length_list)).value();
 }
 
-std::optional<std::pair<double, double>> Configuration::length_range(std::string_view key) const {
-  return parse_length_range(text_of(key, Kind::length_range));
+std::optional<Domain> Configuration::domain(std::string_view key) const {
+  return parse_domain(text_of(key, Kind::domain), parser_of(*find_key(key)));
+}
+
+std::optional<std::vector<double>> Configuration::axis(std::string_view key) const {
+  return parse_axis(text_of(key, Kind::axis), parser_of(*find_key(key)));
+}
+
+std::vector<VisitingOrder> Configuration::orders(std::string_view key) const {
+  return parse_orders(text_of(key, Kind::orders)).value_or(std::vector<VisitingOrder>{});
 }
 
 std::optional<double> Configuration::optional_time(std::string_view key) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "objectives/design_space.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -15,13 +17,15 @@ namespace nlcwfs {
 enum class Kind {
   number,
   integer,
-  seed,          ///< 64-bit unsigned
-  length,        ///< m
-  length_list,   ///< m, separated by commas
-  length_range,  ///< min:max, m
-  time,          ///< s
-  ramp,          ///< a number, or start:end
-  choice,        ///< one of a few words
+  seed,         ///< 64-bit unsigned
+  length,       ///< m
+  length_list,  ///< m, separated by commas
+  domain,       ///< what a search may choose, see parse_domain
+  axis,         ///< what a sweep tries, see parse_axis
+  orders,       ///< visiting orders, see parse_orders
+  time,         ///< s
+  ramp,         ///< a number, or start:end
+  choice,       ///< one of a few words
   text
 };
 
@@ -47,6 +51,8 @@ struct ConfigurationKey {
   Bounds bounds = {};                     ///< of every number in the value
   std::vector<std::string> choices = {};  ///< the words of a choice
   std::string example = {};               ///< for messages; the default where empty
+  Kind element = Kind::number;            ///< of a domain's or axis's values: number, integer,
+                                          ///< length, time or choice
 
   /// What a value may be, for messages and documentation: "a length above 0, such as 0.5m".
   std::string allowed() const;
@@ -54,6 +60,8 @@ struct ConfigurationKey {
   std::string_view unit_text() const;
   /// Whether `value` is well-formed and within bounds.
   bool accepts(std::string_view value) const;
+  /// Reads one value of a domain or axis; a choice is its index.
+  std::optional<double> element_of(std::string_view value) const;
 };
 
 /// Every key, grouped by section.
@@ -103,8 +111,12 @@ class Configuration {
   std::optional<double> optional_length(std::string_view key) const;
   /// m
   std::vector<double> lengths(std::string_view key) const;
-  /// {min, max} in m, or nothing where not set
-  std::optional<std::pair<double, double>> length_range(std::string_view key) const;
+  /// In SI, or nothing where not set.
+  std::optional<Domain> domain(std::string_view key) const;
+  /// In SI, or nothing where not set.
+  std::optional<std::vector<double>> axis(std::string_view key) const;
+  /// Empty for all, or where not set.
+  std::vector<VisitingOrder> orders(std::string_view key) const;
   /// s, or nothing where not set
   std::optional<double> optional_time(std::string_view key) const;
   /// {start, end}, equal for a single number

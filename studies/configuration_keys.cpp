@@ -1,5 +1,7 @@
 #include "studies/configuration.hpp"
 
+#include <fmt/format.h>
+
 namespace nlcwfs {
 namespace {
 
@@ -11,8 +13,77 @@ Bounds from_to(double least, double greatest) { return {.least = least, .greates
 constexpr Bounds relaxation_bounds{
     .least = -1.0, .greatest = 1.0, .least_included = false, .greatest_included = false};
 
+/// Everything of a sensor that can be varied.
+struct Variation {
+  std::string name;
+  Kind element;
+  std::string description;
+  Bounds bounds = {};
+  std::string range_example;
+  std::string axis_example;
+  std::vector<std::string> choices = {};
+};
+
+std::vector<Variation> variations() {
+  std::vector<Variation> all{
+      {"z_near", Kind::length, "Distance of the near pair of a symmetric layout.", above(0),
+       "5km:100km", "5km:100km:24"},
+      {"z_far", Kind::length, "Distance of the far pair of a symmetric layout.", above(0),
+       "50km:400km", "50km:400km:24"},
+      {"z_third", Kind::length,
+       "Distance of the third pair of a symmetric layout of five or six planes.", above(0),
+       "5km:400km", "5km:400km:8"}};
+  for (int plane = 1; plane <= 6; ++plane) {
+    all.push_back({fmt::format("z{}", plane),
+                   Kind::length,
+                   fmt::format("Signed distance of plane {} of a free layout.", plane),
+                   {},
+                   "-200km:-5km",
+                   "-250km:250km:51"});
+  }
+  all.insert(
+      all.end(),
+      {{"pupil_pixels", Kind::integer, "Detector pixels across the pupil.", from_to(4, 8192),
+        "16,32,64", "16,32,64"},
+       {"detector_window", Kind::number, "Width of the detector, pupil diameters.", from_to(1, 64),
+        "2:6", "2,3,4"},
+       {"reconstruction_window", Kind::number,
+        "Width of the reconstruction's grid, pupil diameters.", from_to(1, 64), "4:8", "4,8"},
+       {"relaxation", Kind::number, "Relaxation beta, the same in every loop.", relaxation_bounds,
+        "-0.5:0.8", "-0.5:0.8:14"},
+       {"relaxation_start", Kind::number, "Relaxation beta of the first loop.", relaxation_bounds,
+        "0:0.8", "0,0.4,0.8"},
+       {"relaxation_end", Kind::number, "Relaxation beta of the last loop.", relaxation_bounds,
+        "-0.8:0.8", "-0.5,0,0.5"},
+       {"initial_guess",
+        Kind::choice,
+        "First estimate of the phase.",
+        {},
+        "",
+        "",
+        {"flat", "centroid"}},
+       {"reconstruction_oversampling", Kind::integer,
+        "Reconstruction samples per detector pixel and axis.", from_to(1, 16), "1,2", "1,2,4"},
+       {"tolerance", Kind::length, "Tolerance of the reconstruction, optical path.", above(0),
+        "0.1nm:10nm", "0.1nm:10nm:5:log"}});
+  return all;
+}
+
+void add_variations(std::vector<ConfigurationKey>& keys, const std::string& section, Kind kind) {
+  for (const Variation& variation : variations()) {
+    keys.push_back(
+        {.name = fmt::format("{}.{}", section, variation.name),
+         .kind = kind,
+         .description = variation.description,
+         .bounds = variation.bounds,
+         .choices = variation.choices,
+         .example = kind == Kind::axis ? variation.axis_example : variation.range_example,
+         .element = variation.element});
+  }
+}
+
 std::vector<ConfigurationKey> make_keys() {
-  return {
+  std::vector<ConfigurationKey> keys{
       {.name = "telescope.diameter",
        .kind = Kind::length,
        .default_text = "0.5m",
@@ -224,8 +295,25 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::choice,
        .default_text = "symmetric",
        .description = "Planes in pairs -z, +z at z_near and z_far (symmetric), or each at its own "
-                      "distance z1, z2, ... (free).",
+                      "distance z1, z2, ... (free). Their keys are those below; distances that are "
+                      "not set are searched between the Fresnel numbers 200 and 2, on either side "
+                      "of the pupil in a free layout; what else is not set is not varied.",
        .choices = {"symmetric", "free"}},
+      {.name = "search.plane_count",
+       .kind = Kind::domain,
+       .default_text = "4",
+       .description = "Numbers of planes that are searched. A symmetric layout of an odd number "
+                      "leaves one plane of a pair out.",
+       .bounds = from_to(2, 6),
+       .example = "3,4 or 2:6",
+       .element = Kind::integer},
+      {.name = "search.order",
+       .kind = Kind::orders,
+       .default_text = "all",
+       .description =
+           "Orders in which a symmetric layout may be visited: plane numbers, where 1 is "
+           "-z_near, 2 +z_near, 3 -z_far, 4 +z_far, 5 -z_third, 6 +z_third.",
+       .example = "all or 3412,1234"},
       {.name = "search.optimizer",
        .kind = Kind::text,
        .default_text = "auto",
@@ -234,11 +322,6 @@ std::vector<ConfigurationKey> make_keys() {
                       "direct_l_rand, crs2, mlsl, isres, esch; local: sbplx, nelder_mead, bobyqa, "
                       "cobyla, praxis.",
        .example = "direct_l+bobyqa"},
-      {.name = "search.plane_count",
-       .kind = Kind::integer,
-       .default_text = "4",
-       .description = "Number of planes in a free layout.",
-       .bounds = from_to(2, 6)},
       {.name = "search.budget",
        .kind = Kind::integer,
        .default_text = "150",
@@ -260,42 +343,9 @@ std::vector<ConfigurationKey> make_keys() {
        .description = "Time after which the search ends with the best design so far. Not set: no "
                       "limit.",
        .bounds = above(0),
-       .example = "90s or 30min"},
-      {.name = "search.z_near",
-       .kind = Kind::length_range,
-       .description = "Where the near pair of a symmetric layout is searched.",
-       .bounds = above(0),
-       .example = "5km:100km"},
-      {.name = "search.z_far",
-       .kind = Kind::length_range,
-       .description = "Where the far pair of a symmetric layout is searched.",
-       .bounds = above(0),
-       .example = "50km:400km"},
-      {.name = "search.z1",
-       .kind = Kind::length_range,
-       .description = "Where plane 1 of a free layout is searched, signed.",
-       .example = "-200km:-5km"},
-      {.name = "search.z2",
-       .kind = Kind::length_range,
-       .description = "Where plane 2 of a free layout is searched, signed.",
-       .example = "5km:200km"},
-      {.name = "search.z3",
-       .kind = Kind::length_range,
-       .description = "Where plane 3 of a free layout is searched, signed.",
-       .example = "-200km:-5km"},
-      {.name = "search.z4",
-       .kind = Kind::length_range,
-       .description = "Where plane 4 of a free layout is searched, signed.",
-       .example = "5km:200km"},
-      {.name = "search.z5",
-       .kind = Kind::length_range,
-       .description = "Where plane 5 of a free layout is searched, signed.",
-       .example = "-200km:-5km"},
-      {.name = "search.z6",
-       .kind = Kind::length_range,
-       .description = "Where plane 6 of a free layout is searched, signed.",
-       .example = "5km:200km"},
-
+       .example = "90s or 30min"}};
+  add_variations(keys, "search", Kind::domain);
+  const std::vector<ConfigurationKey> others{
       {.name = "baseline.planes",
        .kind = Kind::length_list,
        .default_text = "-47km,47km,-180km,180km",
@@ -348,8 +398,9 @@ std::vector<ConfigurationKey> make_keys() {
            "Beam diameter behind a relay at the telescope that a design is moved to. Not "
            "set: as telescope.relay_beam_diameter.",
        .bounds = above(0),
-       .example = "10mm"},
-  };
+       .example = "10mm"}};
+  keys.insert(keys.end(), others.begin(), others.end());
+  return keys;
 }
 
 }  // namespace

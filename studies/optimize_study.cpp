@@ -1,6 +1,6 @@
 #include "model/input_error.hpp"
 #include "objectives/design_comparison.hpp"
-#include "objectives/placement_problem.hpp"
+#include "objectives/design_problem.hpp"
 #include "optimizer/chained_search.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
@@ -13,6 +13,7 @@
 #include "studies/units.hpp"
 
 #include <algorithm>
+#include <any>
 #include <chrono>
 #include <stdexcept>
 #include <stop_token>
@@ -31,14 +32,15 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// The method, limits and seed of the section search.
-SearchOptions search_options_of(const Configuration& configuration, const PlaneLayout& layout) {
+SearchOptions search_options_of(const Configuration& configuration,
+                                const std::vector<SubSpace>& sub_spaces) {
   SearchOptions options;
   options.optimizer = configuration.text("search.optimizer");
   options.seed = configuration.seed("search.seed");
   options.evaluation.budget = configuration.integer("search.budget");
   options.evaluation.time_limit = configuration.optional_time("search.time_limit");
   try {
-    search_method(options.optimizer, static_cast<int>(layout.variables().size()));
+    search_method(options.optimizer, sub_spaces);
   } catch (const std::invalid_argument& error) {
     throw InputError("search.optimizer", options.optimizer, error.what());
   }
@@ -51,24 +53,24 @@ struct Task {
 
   Telescope telescope;
   Seeing seeing;
-  std::unique_ptr<PlaneLayout> layout;
-  SearchOptions search;
   std::vector<std::string> notes;
   DesignTrial trial;
   DesignTrial verification;
-  SensorDesign design;  ///< what the search varies the planes of
+  SensorDesign design;  ///< gives what the search does not vary
   SensorDesign baseline;
+  DesignSpace space;
+  SearchOptions search;
 };
 
 Task::Task(const Configuration& configuration)
     : telescope(telescope_of(configuration)),
       seeing(seeing_of(configuration, telescope)),
-      layout(layout_of(configuration, telescope)),
-      search(search_options_of(configuration, *layout)),
       trial(trial_of(configuration, "search.precision", notes)),
       verification(verification_trial_of(configuration)),
       design(trial.checked(design_of(configuration))),
-      baseline(trial.checked(baseline_of(configuration))) {
+      baseline(trial.checked(baseline_of(configuration))),
+      space(search_space_of(configuration, telescope, design)),
+      search(search_options_of(configuration, space.sub_spaces())) {
   try {
     verification.checked(design);
     verification.checked(baseline);
@@ -81,34 +83,37 @@ Task::Task(const Configuration& configuration)
   }
   // The user's own designs are tried first.
   for (const SensorDesign* known : {&design, &baseline}) {
-    if (const auto point = layout->point_of(known->planes)) search.starts.push_back(*point);
+    if (const auto point = space.point_of(*known)) search.starts.push_back(*point);
   }
 }
 
 /// Watches a search: archive, table and progress line.
 class SearchLog {
  public:
-  SearchLog(const Task& task, const PlacementProblem& problem, RunRecord& record, bool quiet)
-      : task_(task), problem_(problem), record_(record), progress_(quiet) {}
+  SearchLog(const Task& task, RunRecord& record, bool quiet)
+      : task_(task), record_(record), progress_(quiet) {}
 
   void add(const EvaluationRecord& evaluation) {
-    const SensorDesign design = problem_.design(evaluation.point);
-    const TriedDesign& tried = problem_.last_tried();
+    const SensorDesign design = task_.space.design(evaluation.point);
     const bool failed = !evaluation.failure.empty();
+    const auto* tried = std::any_cast<TriedDesign>(&evaluation.detail);
     record_.archive().add(
         {.stage = "search",
          .design = to_json(design, task_.telescope, task_.seeing.fried_parameter).dump(),
          .cost = evaluation.cost,
          .failure = evaluation.failure,
          .seconds = evaluation.seconds,
-         .performance = failed ? "" : to_json(tried.performances.front()).dump()});
+         .performance = failed ? "" : to_json(tried->performances.front()).dump()});
 
-    table_.row().add(evaluation.index).add(evaluation.key).add(evaluation.cost);
+    table_.row()
+        .add(evaluation.index)
+        .add(fmt::format("{:.7g}", fmt::join(design.planes, ",")))
+        .add(evaluation.cost);
     for (const char* metric : {"residual_wfe_nm", "fractional_loops"}) {
       if (failed) {
         table_.add("");
       } else {
-        table_.add(tried.performances.front().mean_of(performance_metric(metric)).mean);
+        table_.add(tried->performances.front().mean_of(performance_metric(metric)).mean);
       }
     }
     table_.add(evaluation.failure);
@@ -130,7 +135,6 @@ class SearchLog {
   }
 
   const Task& task_;
-  const PlacementProblem& problem_;
   RunRecord& record_;
   ProgressLine progress_;
   Clock::time_point start_ = Clock::now();
@@ -139,7 +143,7 @@ class SearchLog {
 };
 
 /// The search; Ctrl-C ends it with the best design so far.
-SearchResult search_until_interrupted(PlacementProblem& problem, SearchOptions options,
+SearchResult search_until_interrupted(DesignProblem& problem, SearchOptions options,
                                       SearchLog& log) {
   const InterruptWatch watch;
   std::stop_source stop;
@@ -179,7 +183,8 @@ Json design_object(const TriedDesign& verified, const Task& task) {
 Json leaders_array(const SearchResult& result, const Task& task) {
   Json leaders = Json::array();
   for (const EvaluatedDesign& leader : result.best_designs) {
-    leaders.push_back({{"planes_m", task.layout->planes(leader.point)}, {"cost", leader.cost}});
+    leaders.push_back(
+        {{"planes_m", task.space.design(leader.point).planes}, {"cost", leader.cost}});
   }
   return leaders;
 }
@@ -197,6 +202,10 @@ std::string_view ending_text(Termination termination) {
   switch (termination) {
     case Termination::converged:
       return "until nothing got better";
+    case Termination::target_reached:
+      return "until search.target was reached";
+    case Termination::stagnated:
+      return "until search.stagnation designs in a row were no better";
     case Termination::budget_exhausted:
       return "all that search.budget allows";
     case Termination::time_limit:
@@ -260,13 +269,13 @@ void run_optimize(const CommandLine& command_line) {
   const Task task(configuration);
   RunRecord record(command_line);
 
-  PlacementProblem problem(task.trial, *task.layout, task.design);
-  SearchLog log(task, problem, record, command_line.quiet);
+  DesignProblem problem(task.space, task.trial);
+  SearchLog log(task, record, command_line.quiet);
   const auto search_start = Clock::now();
   const SearchResult result = search_until_interrupted(problem, task.search, log);
   const double search_seconds = seconds_since(search_start);
 
-  const TriedDesign best = verify_and_archive(problem.design(result.best->point), "best design",
+  const TriedDesign best = verify_and_archive(task.space.design(result.best->point), "best design",
                                               task, record, command_line.quiet);
   const TriedDesign baseline =
       verify_and_archive(task.baseline, "baseline", task, record, command_line.quiet);

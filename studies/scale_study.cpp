@@ -4,6 +4,7 @@
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
+#include "studies/units.hpp"
 
 #include <algorithm>
 
@@ -28,6 +29,11 @@ Telescope scaled_telescope_of(const Configuration& configuration, Telescope tele
   if (relay) telescope.relay_beam_diameter = relay;
   telescope.validate();
   return telescope;
+}
+
+/// Whether a key holds lengths of a sensor that a search or sweep varies.
+bool is_varied_length(const ConfigurationKey& key) {
+  return (key.kind == Kind::domain || key.kind == Kind::axis) && key.element == Kind::length;
 }
 
 }  // namespace
@@ -69,10 +75,12 @@ void run_scale(const CommandLine& command_line) {
       std::vector<double> planes = configuration.lengths(key.name);
       std::ranges::transform(planes, planes.begin(), moved);
       set(key.name, fmt::format("{}", fmt::join(planes, ",")));
-    } else if (key.kind == Kind::length_range) {
-      if (const auto range = configuration.length_range(key.name)) {
-        set(key.name, fmt::format("{}:{}", moved(range->first), moved(range->second)));
-      }
+    } else if (is_varied_length(key) && configuration.is_set(key.name)) {
+      // Tolerances are optical path, everything else is a distance.
+      const bool is_path = key.name.ends_with("tolerance");
+      set(key.name, with_lengths(configuration.value_text(key.name), [&](double length) {
+            return is_path ? length * target.wavelength / telescope.wavelength : moved(length);
+          }));
     }
   }
   // Equal designs are equal in waves, and so are their costs.

@@ -30,6 +30,26 @@ Value choice_of(const Configuration& configuration, std::string_view key,
   throw std::logic_error(fmt::format("{} has a choice without a meaning", key));
 }
 
+/// A list of whole numbers, or all of a range.
+std::vector<int> whole_numbers(std::string_view key, const Domain& domain) {
+  std::vector<int> numbers;
+  if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
+    for (const double value : *list) {
+      const auto number = static_cast<int>(value);
+      if (std::ranges::count(numbers, number) > 0) {
+        throw InputError(key, number, "each number once");
+      }
+      numbers.push_back(number);
+    }
+  } else {
+    const ValueRange& range = std::get<ValueRange>(domain);
+    for (auto number = static_cast<int>(range.lower); number <= range.upper; ++number) {
+      numbers.push_back(number);
+    }
+  }
+  return numbers;
+}
+
 InitialGuess initial_guess_of(const Configuration& configuration, std::string_view key) {
   return choice_of<InitialGuess>(
       configuration, key, {{"flat", InitialGuess::flat}, {"centroid", InitialGuess::centroid}});
@@ -202,39 +222,25 @@ DesignCost cost_of(const Configuration& configuration) {
           .fft_rate = configuration.number("objective.fft_rate")};
 }
 
-std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
-                                       const Telescope& telescope) {
-  const auto [nearest, farthest] = default_distance_range(telescope);
-  const bool is_symmetric = configuration.choice("search.layout") == "symmetric";
-  const int plane_count = configuration.integer("search.plane_count");
+DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
+                            SensorDesign base) {
+  DesignSpaceOptions options{
+      .base = std::move(base),
+      .layout = choice_of<Layout>(configuration, "search.layout",
+                                  {{"symmetric", Layout::symmetric}, {"free", Layout::free}}),
+      .plane_counts =
+          whole_numbers("search.plane_count", *configuration.domain("search.plane_count")),
+      .orders = configuration.orders("search.order")};
   for (const ConfigurationKey& key : configuration_keys()) {
-    if (!key.name.starts_with("search.z") || !configuration.is_set(key.name)) continue;
-    const bool is_pair = key.name == "search.z_near" || key.name == "search.z_far";
-    if (is_pair != is_symmetric) {
-      throw InputError(key.name, configuration.value_text(key.name),
-                       fmt::format("is for search.layout = {}", is_pair ? "symmetric" : "free"));
+    if (!key.name.starts_with("search.") || key.kind != Kind::domain ||
+        key.name == "search.plane_count") {
+      continue;
     }
-    if (!is_pair && key.name > fmt::format("search.z{}", plane_count)) {
-      throw InputError(key.name, configuration.value_text(key.name),
-                       fmt::format("there are {} planes, see search.plane_count", plane_count));
+    if (const auto domain = configuration.domain(key.name)) {
+      options.domains.emplace(key.name.substr(std::string_view("search.").size()), *domain);
     }
   }
-  if (is_symmetric) {
-    if (plane_count != 4) {
-      throw InputError("search.plane_count", plane_count,
-                       "4 in a symmetric layout; other numbers are for search.layout = free");
-    }
-    const DistanceRange both{nearest, farthest};
-    return std::make_unique<SymmetricLayout>(
-        telescope, configuration.length_range("search.z_near").value_or(both),
-        configuration.length_range("search.z_far").value_or(both));
-  }
-  std::vector<DistanceRange> ranges;
-  for (int plane = 1; plane <= plane_count; ++plane) {
-    ranges.push_back(configuration.length_range(fmt::format("search.z{}", plane))
-                         .value_or(DistanceRange{-farthest, farthest}));
-  }
-  return std::make_unique<FreeLayout>(telescope, std::move(ranges));
+  return {telescope, std::move(options)};
 }
 
 int truth_samples(const Configuration& configuration) {

@@ -5,12 +5,11 @@
 #include "model/simulation.hpp"
 #include "model/telescope.hpp"
 #include "objectives/design_cost.hpp"
+#include "objectives/design_space.hpp"
 #include "objectives/design_trial.hpp"
-#include "objectives/plane_layout.hpp"
 #include "studies/configuration.hpp"
 
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,8 +35,10 @@ SensorDesign baseline_of(const Configuration& configuration);
 
 DesignCost cost_of(const Configuration& configuration);
 
-std::unique_ptr<PlaneLayout> layout_of(const Configuration& configuration,
-                                       const Telescope& telescope);
+/// What the section search lets vary.
+/// @param base  gives everything else
+DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
+                            SensorDesign base);
 
 /// Samples of the true field across the pupil; a matched truth has the detector's.
 int truth_samples(const Configuration& configuration);

@@ -72,6 +72,34 @@ std::optional<std::pair<std::string_view, std::string_view>> split_once(std::str
   return std::pair(text.substr(0, at), text.substr(at + 1));
 }
 
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (auto both = split_once(text, separator); both; both = split_once(text, separator)) {
+    parts.push_back(both->first);
+    text = both->second;
+  }
+  parts.push_back(text);
+  return parts;
+}
+
+/// Values separated by commas, at least one, none empty.
+std::optional<std::vector<double>> parse_list(std::string_view text,
+                                              const ValueParser& parse_value) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text, ',')) {
+    const auto value = parse_value(part);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::optional<Scale> parse_scale(std::string_view text) {
+  if (trimmed(text) == "log") return Scale::logarithmic;
+  if (trimmed(text) == "linear") return Scale::linear;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> parse_number(std::string_view text) {
@@ -91,26 +119,75 @@ std::optional<double> parse_length(std::string_view text) {
 std::optional<double> parse_time(std::string_view text) { return parse_quantity(text, time_units); }
 
 std::optional<std::vector<double>> parse_lengths(std::string_view text) {
-  std::vector<double> lengths;
-  for (auto parts = split_once(text, ','); parts; parts = split_once(text, ',')) {
-    const auto length = parse_length(parts->first);
-    if (!length) return std::nullopt;
-    lengths.push_back(*length);
-    text = parts->second;
-  }
-  const auto last = parse_length(text);
-  if (!last) return std::nullopt;
-  lengths.push_back(*last);
-  return lengths;
+  return parse_list(text, parse_length);
 }
 
-std::optional<std::pair<double, double>> parse_length_range(std::string_view text) {
-  const auto parts = split_once(text, ':');
-  if (!parts) return std::nullopt;
-  const auto min = parse_length(parts->first);
-  const auto max = parse_length(parts->second);
-  if (!min || !max || !(*min < *max)) return std::nullopt;
-  return std::pair(*min, *max);
+std::optional<Domain> parse_domain(std::string_view text, const ValueParser& parse_value) {
+  const std::vector<std::string_view> parts = split(text, ':');
+  if (parts.size() == 1) return parse_list(text, parse_value);
+  const auto lower = parse_value(parts[0]);
+  const auto upper = parse_value(parts[1]);
+  if (!lower || !upper || !(*lower < *upper) || parts.size() > 3) return std::nullopt;
+  ValueRange range{*lower, *upper};
+  if (parts.size() == 3) {
+    range.scale = parse_scale(parts[2]);
+    if (!range.scale) return std::nullopt;
+  }
+  return range;
+}
+
+std::optional<std::vector<double>> parse_axis(std::string_view text,
+                                              const ValueParser& parse_value) {
+  constexpr int most_places = 100000;
+  const std::vector<std::string_view> parts = split(text, ':');
+  if (parts.size() == 1) return parse_list(text, parse_value);
+  if (parts.size() < 3 || parts.size() > 4) return std::nullopt;
+  const auto lower = parse_value(parts[0]);
+  const auto upper = parse_value(parts[1]);
+  const auto count = parse_integer(parts[2]);
+  const auto scale = parts.size() == 4 ? parse_scale(parts[3]) : Scale::linear;
+  if (!lower || !upper || !count || !scale || !(*lower < *upper) || *count < 2 ||
+      *count > most_places || (*scale == Scale::logarithmic && !(*lower > 0.0))) {
+    return std::nullopt;
+  }
+  std::vector<double> places;
+  for (int i = 0; i < *count; ++i) {
+    const double share = double(i) / (*count - 1);
+    places.push_back(*scale == Scale::linear
+                         ? std::lerp(*lower, *upper, share)
+                         : std::exp(std::lerp(std::log(*lower), std::log(*upper), share)));
+  }
+  places.front() = *lower;
+  places.back() = *upper;
+  return places;
+}
+
+std::optional<std::vector<VisitingOrder>> parse_orders(std::string_view text) {
+  std::vector<VisitingOrder> orders;
+  if (trimmed(text) == "all") return orders;
+  for (const std::string_view word : split(text, ',')) {
+    VisitingOrder& order = orders.emplace_back();
+    for (const char digit : trimmed(word)) {
+      const int number = digit - '0';
+      if (number < 1 || number > 6 || std::ranges::count(order, number) > 0) return std::nullopt;
+      order.push_back(number);
+    }
+    // The planes of the pairs that the number of planes needs, all or all but one.
+    const auto count = static_cast<int>(order.size());
+    if (count < 2 || std::ranges::max(order) > count + count % 2) return std::nullopt;
+  }
+  return orders;
+}
+
+std::string with_lengths(std::string_view text, const std::function<double(double)>& replaced) {
+  const bool is_range = text.find(':') != std::string_view::npos;
+  std::vector<std::string> parts;
+  for (const std::string_view part : split(text, is_range ? ':' : ',')) {
+    const bool is_length = !is_range || parts.size() < 2;
+    parts.push_back(is_length ? fmt::format("{}", replaced(parse_length(part).value()))
+                              : std::string(part));
+  }
+  return fmt::format("{}", fmt::join(parts, is_range ? ":" : ","));
 }
 
 std::optional<std::pair<double, double>> parse_ramp(std::string_view text) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "objectives/design_space.hpp"
+
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,8 +33,25 @@ std::optional<double> parse_time(std::string_view text);
 /// Lengths in m, separated by commas: -47km,47km. At least one, none empty.
 std::optional<std::vector<double>> parse_lengths(std::string_view text);
 
-/// A range of lengths min:max in m, min < max.
-std::optional<std::pair<double, double>> parse_length_range(std::string_view text);
+/// Reads one value, such as parse_length.
+using ValueParser = std::function<std::optional<double>(std::string_view)>;
+
+/// What may be chosen: min:max, min:max:log or min:max:linear with min < max, or values separated
+/// by commas.
+std::optional<Domain> parse_domain(std::string_view text, const ValueParser& parse_value);
+
+/// Places on an axis: min:max:count (evenly spaced, both ends included) or min:max:count:log with
+/// min < max and a count of at least 2, or values separated by commas.
+std::optional<std::vector<double>> parse_axis(std::string_view text,
+                                              const ValueParser& parse_value);
+
+/// `all` (an empty list), or visiting orders separated by commas, each the numbers of its planes:
+/// 3412,1234.
+std::optional<std::vector<VisitingOrder>> parse_orders(std::string_view text);
+
+/// The text of a domain or axis of lengths with each of its lengths replaced.
+/// @pre parse_domain or parse_axis reads it
+std::string with_lengths(std::string_view text, const std::function<double(double)>& replaced);
 
 /// A number, or two as start:end; {start, end}, which are equal for one number.
 std::optional<std::pair<double, double>> parse_ramp(std::string_view text);

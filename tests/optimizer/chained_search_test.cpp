@@ -70,7 +70,7 @@ TEST_P(EveryMethod, KeepsWithinTheBudgetAndReportsTheBestRecord) {
       EXPECT_EQ(result.failures, failures);
       ASSERT_TRUE(result.best);
       EXPECT_EQ(result.best->cost, lowest);
-      EXPECT_EQ(problem.function(result.best->point.choice, result.best->point.x), lowest);
+      EXPECT_EQ(problem.function(result.best->point.sub_space, result.best->point.x), lowest);
       ASSERT_FALSE(result.best_designs.empty());
       EXPECT_LE(result.best_designs.size(), 5u);
       EXPECT_EQ(result.best_designs.front().key, result.best->key);
@@ -154,9 +154,9 @@ TEST(ChainedSearch, EvaluatesStartsFirstAndEveryChoiceAtTheBestPoint) {
                        .evaluation = {.budget = 150, .observer = [&](const auto& record) {
                                         points.push_back(record.point);
                                       }}});
-  EXPECT_EQ(points[0].choice, 3);
+  EXPECT_EQ(points[0].sub_space, 3);
   EXPECT_EQ(points[0].x, Eigen::Vector2d(0.1, 0.2));
-  EXPECT_EQ(points[1].choice, 5);
+  EXPECT_EQ(points[1].sub_space, 5);
 
   ASSERT_GE(result.stages.size(), 4u);
   EXPECT_EQ(result.stages[0].name, "starts");
@@ -169,7 +169,7 @@ TEST(ChainedSearch, EvaluatesStartsFirstAndEveryChoiceAtTheBestPoint) {
   std::set<int> choices;
   for (int i = first; i < first + 23; ++i) {
     EXPECT_EQ(points[i].x, points[first].x);
-    choices.insert(points[i].choice);
+    choices.insert(points[i].sub_space);
   }
   EXPECT_EQ(choices.size(), 23u);
 }
@@ -178,7 +178,7 @@ TEST(ChainedSearch, SpendsASmallBudgetOnEveryChoiceOnce) {
   TestProblem problem = choices();
   std::set<int> seen;
   search(problem, {.evaluation = {.budget = 24, .observer = [&](const auto& record) {
-                                    seen.insert(record.point.choice);
+                                    seen.insert(record.point.sub_space);
                                   }}});
   EXPECT_EQ(seen.size(), 24u);
 }
@@ -194,7 +194,7 @@ TEST(ChainedSearch, ConvergesBeforeALargeBudgetEnds) {
 TEST(ChainedSearch, NeverEvaluatesDesignsOfEqualKeysAgain) {
   TestProblem problem = choices();
   problem.key_of = [](const SearchPoint& point) {  // choices in pairs, and a coarse grid
-    return fmt::format("{} {:.1f} {:.1f}", point.choice / 2, point.x[0], point.x[1]);
+    return fmt::format("{} {:.1f} {:.1f}", point.sub_space / 2, point.x[0], point.x[1]);
   };
   std::vector<std::string> keys;
   const SearchResult result =
@@ -213,8 +213,9 @@ TEST(ChainedSearch, EndsWithACompleteResultWhenAStopIsRequested) {
                                         if (r.index == 40) source.request_stop();
                                       }}});
   EXPECT_EQ(result.termination, Termination::stop_requested);
-  EXPECT_EQ(result.evaluations, 40);
-  EXPECT_EQ(sum_of_stages(result), 40);
+  EXPECT_GE(result.evaluations, 40);
+  EXPECT_LT(result.evaluations, 48);  // the rest of a batch
+  EXPECT_EQ(sum_of_stages(result), result.evaluations);
   ASSERT_TRUE(result.best);
   EXPECT_EQ(result.best_designs.size(), 5u);
 }
@@ -263,7 +264,8 @@ TEST(ChainedSearch, LetsTheObserversExceptionsThrough) {
                                                          throw std::domain_error("full");
                                                      }}}),
                  std::domain_error);
-    EXPECT_EQ(problem.calls, index);
+    EXPECT_GE(problem.calls, index);
+    EXPECT_LT(problem.calls, index + 8);  // the rest of a batch
   }
 }
 
@@ -272,11 +274,11 @@ TEST(SearchMethod, ReadsNames) {
                      const std::string& local) {
     return method.global == global && method.local == local;
   };
-  EXPECT_TRUE(is(search_method("auto", 2), "direct_l", "sbplx"));
-  EXPECT_TRUE(is(search_method("auto", 3), "direct_l", "nelder_mead"));
-  EXPECT_TRUE(is(search_method("crs2+cobyla", 2), "crs2", "cobyla"));
-  EXPECT_TRUE(is(search_method("crs2", 2), "crs2", ""));
-  EXPECT_TRUE(is(search_method("bobyqa", 2), "", "bobyqa"));
+  EXPECT_TRUE(is(search_method("auto", {{"", cube(2, 0.0, 1.0)}}), "direct_l", "sbplx"));
+  EXPECT_TRUE(is(search_method("auto", {{"", cube(3, 0.0, 1.0)}}), "direct_l", "nelder_mead"));
+  EXPECT_TRUE(is(search_method("crs2+cobyla", {{"", cube(2, 0.0, 1.0)}}), "crs2", "cobyla"));
+  EXPECT_TRUE(is(search_method("crs2", {{"", cube(2, 0.0, 1.0)}}), "crs2", ""));
+  EXPECT_TRUE(is(search_method("bobyqa", {{"", cube(2, 0.0, 1.0)}}), "", "bobyqa"));
 }
 
 TEST(SearchMethod, RefusesOtherNamesBeforeAnyEvaluation) {

@@ -51,14 +51,14 @@ TEST(Evaluator, EvaluatesDesignsOfEqualKeysOnce) {
   problem.key_of = [](const SearchPoint& point) { return fmt::format("{:.2f}", point.x[0]); };
   Evaluator evaluator(problem, {.budget = 1});
   const double cost = evaluator(at(4.0, 5.0));
-  EXPECT_FALSE(evaluator.best_of(1));
+  EXPECT_FALSE(evaluator.best_of_slice({1, {}}));
   EXPECT_EQ(evaluator(at(4.001, 5.5, 1)), cost);
   EXPECT_EQ(problem.calls, 1);
   EXPECT_EQ(evaluator.evaluations(), 1);
   EXPECT_EQ(evaluator.cache_hits(), 1);
-  ASSERT_TRUE(evaluator.best_of(1));
-  EXPECT_EQ(evaluator.best_of(1)->cost, cost);
-  EXPECT_EQ(evaluator.best_of(1)->point.x, Eigen::Vector2d(4.001, 5.5));
+  ASSERT_TRUE(evaluator.best_of_slice({1, {}}));
+  EXPECT_EQ(evaluator.best_of_slice({1, {}})->cost, cost);
+  EXPECT_EQ(evaluator.best_of_slice({1, {}})->point.x, Eigen::Vector2d(4.001, 5.5));
 }
 
 TEST(Evaluator, MovesPointsOutsideOntoTheBounds) {
@@ -225,6 +225,8 @@ TEST(Evaluator, BestDesignsDiffer) {
 
 TEST(Termination, HasNames) {
   EXPECT_EQ(to_string(Termination::converged), "converged");
+  EXPECT_EQ(to_string(Termination::target_reached), "target_reached");
+  EXPECT_EQ(to_string(Termination::stagnated), "stagnated");
   EXPECT_EQ(to_string(Termination::budget_exhausted), "budget_exhausted");
   EXPECT_EQ(to_string(Termination::time_limit), "time_limit");
   EXPECT_EQ(to_string(Termination::stop_requested), "stop_requested");

@@ -36,7 +36,7 @@ BackendRun run(std::string_view algorithm, TestProblem problem, StageOptions opt
   Evaluator evaluator(problem, {.budget = 1000, .observer = [&](const EvaluationRecord& record) {
                                   done.records.push_back(record);
                                 }});
-  done.stage = minimize(algorithm, evaluator, 0, problem.start(), options);
+  done.stage = minimize(algorithm, evaluator, {0, problem.start()}, options);
   if (evaluator.best()) done.best = evaluator.best()->cost;
   return done;
 }
@@ -103,7 +103,7 @@ TEST_P(EveryAlgorithm, IsResumedByAHigherLimit) {
   Evaluator evaluator(problem,
                       {.observer = [&](const auto& record) { keys.push_back(record.key); }});
   for (const int limit : {20, 15}) {
-    minimize(GetParam(), evaluator, 0, problem.start(), {.max_evaluations = limit});
+    minimize(GetParam(), evaluator, {0, problem.start()}, {.max_evaluations = limit});
   }
   std::vector<std::string> keys_at_once;
   for (const auto& record : run(GetParam(), problem, {.max_evaluations = 35}).records) {
@@ -160,7 +160,7 @@ TEST_P(EveryAlgorithm, EndsWhereEveryDesignIsKnown) {
   TestProblem problem = rotated_bowl();
   problem.key_of = [](const SearchPoint& point) { return fmt::format("{:.1f}", point.x[0]); };
   Evaluator evaluator(problem, {.budget = 1000});
-  minimize(GetParam(), evaluator, 0, problem.start(), {.max_evaluations = 50});
+  minimize(GetParam(), evaluator, {0, problem.start()}, {.max_evaluations = 50});
   EXPECT_LE(evaluator.evaluations(), 16);  // 3.5 to 5.0
 }
 
@@ -170,11 +170,11 @@ TEST_P(EveryAlgorithm, LetsTheEvaluatorsExceptionsThrough) {
   Evaluator observed(problem, {.observer = [](const EvaluationRecord& record) {
                        if (record.index == 5) throw std::domain_error("disk full");
                      }});
-  EXPECT_THROW(minimize(GetParam(), observed, 0, start, {}), std::domain_error);
+  EXPECT_THROW(minimize(GetParam(), observed, {0, start}, {}), std::domain_error);
   EXPECT_EQ(problem.calls, 5);
 
   Evaluator limited(problem, {.budget = 5});
-  EXPECT_THROW(minimize(GetParam(), limited, 0, start, {}), SearchStopped);
+  EXPECT_THROW(minimize(GetParam(), limited, {0, start}, {}), SearchStopped);
   EXPECT_EQ(limited.evaluations(), 5);
 }
 
@@ -182,7 +182,7 @@ TEST_P(EveryAlgorithm, SurvivesAProblemWithoutAnyCost) {
   TestProblem problem = all_failing();
   Evaluator evaluator(problem, {});
   try {
-    minimize(GetParam(), evaluator, 0, problem.start(), {});
+    minimize(GetParam(), evaluator, {0, problem.start()}, {});
   } catch (const SearchFailed&) {
     EXPECT_EQ(problem.calls, Evaluator::failures_in_a_row_allowed);
   }
@@ -195,10 +195,11 @@ TEST_P(EveryAlgorithm, StartsFromCornersOfTheBox) {
   for (const double corner : {0.0, 1.0}) {
     TestProblem problem = choices();
     Evaluator evaluator(problem, {});
-    minimize(GetParam(), evaluator, 7, Eigen::Vector2d(corner, corner), {.max_evaluations = 60});
-    ASSERT_TRUE(evaluator.best_of(7));
-    EXPECT_FALSE(evaluator.best_of(0));
-    EXPECT_LT(evaluator.best_of(7)->cost, problem.function(7, Eigen::Vector2d(corner, corner)));
+    minimize(GetParam(), evaluator, {7, Eigen::Vector2d(corner, corner)}, {.max_evaluations = 60});
+    ASSERT_TRUE(evaluator.best_of_slice({7, {}}));
+    EXPECT_FALSE(evaluator.best_of_slice({0, {}}));
+    EXPECT_LT(evaluator.best_of_slice({7, {}})->cost,
+              problem.function(7, Eigen::Vector2d(corner, corner)));
   }
 }
 
@@ -248,7 +249,7 @@ TEST(NloptBackend, RefusesWhatItCannotSolveBeforeItStarts) {
     TestProblem problem = one_variable();
     Evaluator evaluator(problem, {});
     try {
-      minimize(algorithm, evaluator, 0, Eigen::VectorXd::Zero(1), {});
+      minimize(algorithm, evaluator, {0, Eigen::VectorXd::Zero(1)}, {});
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(problem.calls, 0);
       return error.what();
@@ -256,9 +257,9 @@ TEST(NloptBackend, RefusesWhatItCannotSolveBeforeItStarts) {
     return "";
   };
   EXPECT_EQ(message_of("bobyqa"),
-            "bobyqa needs at least 2 variables, this problem has 1: take sbplx");
+            "bobyqa needs at least 2 continuous variables, this problem has 1: take sbplx");
   EXPECT_EQ(message_of("praxis"),
-            "praxis needs at least 2 variables, this problem has 1: take sbplx");
+            "praxis needs at least 2 continuous variables, this problem has 1: take sbplx");
   EXPECT_EQ(message_of("newuoa"),
             "newuoa is no optimizer: there are direct_l, direct_l_rand, crs2, mlsl, isres, esch, "
             "sbplx, nelder_mead, bobyqa, cobyla, praxis");

@@ -2,6 +2,7 @@
 
 #include "optimizer/problem.hpp"
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -22,10 +23,28 @@ namespace nlcwfs {
 
 /// The exact digits of a point: every point is its own design.
 inline std::string exact_key(const SearchPoint& point) {
-  std::string key = fmt::format("{}", point.choice);
+  std::string key = fmt::format("{}", point.sub_space);
   for (const double value : point.x) key += fmt::format(" {}", value);
   return key;
 }
+
+/// A count that threads may raise together and that is copied with its owner.
+struct Counter {
+  Counter() = default;
+  Counter(const Counter& other) : count(other.count.load()) {}
+  Counter& operator=(const Counter& other) {
+    count = other.count.load();
+    return *this;
+  }
+  Counter& operator=(int value) {
+    count = value;
+    return *this;
+  }
+  void operator++() { ++count; }
+  operator int() const { return count; }
+
+  std::atomic<int> count = 0;
+};
 
 /// A problem with a known optimum, which counts how often its cost was computed.
 struct TestProblem : Problem {
@@ -37,12 +56,16 @@ struct TestProblem : Problem {
         function(std::move(its_function)),
         minimum(lowest) {}
 
-  std::vector<Variable> variables() const override { return box; }
-  int choice_count() const override { return choices; }
+  std::vector<SubSpace> sub_spaces() const override {
+    std::vector<SubSpace> all;
+    for (int choice = 0; choice < choices; ++choice)
+      all.push_back({fmt::format("{}", choice), box});
+    return all;
+  }
   std::string key(const SearchPoint& point) const override { return key_of(point); }
-  double cost(const SearchPoint& point) override {
+  Assessment assess(const SearchPoint& point, const GoesOn&) override {
     ++calls;
-    return function(point.choice, point.x);
+    return {.costs = {function(point.sub_space, point.x)}, .violation = excess(point.x)};
   }
 
   /// A point beside the centre of the box where every solvable problem has a cost.
@@ -57,10 +80,12 @@ struct TestProblem : Problem {
   std::string name;
   std::vector<Variable> box;
   Cost function;
-  double minimum;  ///< the lowest cost; infinity where every evaluation fails
-  int choices = 1;
+  double minimum;   ///< the lowest cost; infinity where every evaluation fails
+  int choices = 1;  ///< sub-spaces over the same box
   std::function<std::string(const SearchPoint&)> key_of = exact_key;
-  int calls = 0;
+  /// By how much a limit is exceeded.
+  std::function<double(const Eigen::VectorXd&)> excess = [](const auto&) { return 0.0; };
+  Counter calls;
 };
 
 inline std::vector<Variable> cube(int variables, double lower, double upper) {

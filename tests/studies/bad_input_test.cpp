@@ -139,23 +139,27 @@ TEST_F(BadInput, OfASearch) {
   expect_refused("optimize", {"--search.optimizer", "sbplx+direct_l"},
                  "search.optimizer = sbplx+direct_l", "such as direct_l+sbplx");
   expect_refused("optimize", {"--search.z_near", "50km:5km"}, "search.z_near = 50km:5km",
-                 "min < max");
+                 "min:max");
   expect_refused("optimize", {"--search.z_near", "-50km:-5km"}, "search.z_near = -50km:-5km",
                  "above 0");
   expect_refused("optimize", {"--search.z_far", "50km:5000km"}, "search.z_far = 50000:5e+06",
                  "the farthest that a plane may be");
   expect_refused("optimize", {"--search.layout", "free", "--search.z1", "0:5km"},
                  "search.z1 = 0:5000", "neither of them 0");
-  expect_refused("optimize", {"--search.z1", "5km:50km"}, "search.z1 = 5km:50km",
+  expect_refused("optimize", {"--search.z1", "5km:50km"}, "search.z1 = 5000:50000",
                  "search.layout = free");
   expect_refused("optimize", {"--search.layout", "free", "--search.z_near", "5km:50km"},
-                 "search.z_near = 5km:50km", "search.layout = symmetric");
+                 "search.z_near = 5000:50000", "search.layout = symmetric");
   expect_refused("optimize", {"--search.layout", "free", "--search.z5", "5km:50km"},
-                 "search.z5 = 5km:50km", "4 planes, see search.plane_count");
+                 "search.z5 = 5000:50000", "4 planes, see search.plane_count");
   expect_refused("optimize", {"--baseline.planes", "47km"}, "baseline.planes = 47000",
                  "at least 2 distances");
-  expect_refused("optimize", {"--search.plane_count", "3"}, "search.plane_count = 3",
-                 "search.layout = free");
+  expect_refused("optimize", {"--search.plane_count", "3,3"}, "search.plane_count = 3",
+                 "each number once");
+  expect_refused("optimize", {"--search.order", "1224"}, "search.order = 1224",
+                 "orders of plane numbers");
+  expect_refused("optimize", {"--search.pupil_pixels", "16:64"}, "search.pupil_pixels = 16:64",
+                 "a list");
   expect_refused("optimize",
                  {"--reconstruction.oversampling", "6", "--reconstruction.window", "2",
                   "--simulation.pupil_samples", "32", "--verify.truth_factor", "2"},

@@ -103,7 +103,8 @@ TEST(Configuration, StartsFromTheDefaultsInSi) {
   EXPECT_EQ(configuration.length("reconstruction.tolerance"), 1e-9);
   EXPECT_EQ(configuration.choice("reconstruction.stopping"), "difference");
   EXPECT_THAT(configuration.ramp("reconstruction.relaxation"), Pair(0.0, 0.0));
-  EXPECT_EQ(configuration.length_range("search.z_near"), std::nullopt);
+  EXPECT_FALSE(configuration.domain("search.z_near"));
+  EXPECT_THAT(configuration.orders("search.order"), testing::IsEmpty());
   EXPECT_EQ(configuration.optional_time("search.time_limit"), std::nullopt);
   EXPECT_EQ(configuration.text("search.optimizer"), "auto");
   EXPECT_FALSE(configuration.is_set("screens.file"));
@@ -123,7 +124,7 @@ TEST(Configuration, ReturnsWhatWasSetAndWhoSetIt) {
   EXPECT_EQ(configuration.value_text("telescope.relay_beam_diameter"), "10mm");
   EXPECT_EQ(configuration.seed("screens.seed"), 18446744073709551615u);
   EXPECT_THAT(configuration.ramp("reconstruction.relaxation"), Pair(0.5, -0.5));
-  EXPECT_THAT(configuration.length_range("search.z1"), Optional(Pair(-200e3, -5e3)));
+  EXPECT_EQ(std::get<ValueRange>(configuration.domain("search.z1").value()).lower, -200e3);
   EXPECT_THAT(configuration.optional_time("search.time_limit"), Optional(300.0));
   EXPECT_EQ(configuration.source("search.z1"), here);
 }
@@ -139,9 +140,10 @@ TEST(Configuration, SaysWhatIsAllowedInOneLine) {
             "seeing.fwhm = 0.8m: a number above 0 in arcsec, such as 0.8 (on the command line)");
   EXPECT_EQ(set_message("screens.count", "1e2"),
             "screens.count = 1e2: a whole number from 1 to 1000000 (on the command line)");
-  EXPECT_EQ(set_message("search.z_near", "5km"),
-            "search.z_near = 5km: min:max, lengths above 0 in nm, um, mm, cm, m or km with min < "
-            "max, such as 5km:100km (on the command line)");
+  EXPECT_EQ(
+      set_message("search.z_near", "5km:"),
+      "search.z_near = 5km:: min:max or min:max:log, or a list separated by commas, of lengths "
+      "in nm, um, mm, cm, m or km above 0, such as 5km:100km (on the command line)");
   EXPECT_EQ(set_message("sensor.planes", "47km,,3km"),
             "sensor.planes = 47km,,3km: lengths in nm, um, mm, cm, m or km, separated by commas, "
             "such as -180km,180km,-47km,47km (on the command line)");

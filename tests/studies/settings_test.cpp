@@ -105,26 +105,30 @@ TEST(Settings, TheBaselineDiffersOnlyInWhatItsSectionSets) {
   EXPECT_THAT(baseline.planes, ElementsAre(-47e3, 47e3, -180e3, 180e3));
 }
 
-TEST(Settings, AFreeLayoutHasAVariableForEachPlaneAndASymmetricOneForEachPair) {
+TEST(Settings, TheSearchSpaceIsThatOfTheSectionSearch) {
   const Telescope telescope;
-  EXPECT_EQ(layout_of(Configuration(), telescope)->variables().size(), 2U);
-  const auto free = layout_of(
-      with({{"search.layout", "free"}, {"search.plane_count", "3"}, {"search.z2", "5km:50km"}}),
-      telescope);
-  ASSERT_EQ(free->variables().size(), 3U);
-  const auto planes_at = [&](double share) {
-    SearchPoint point{0, Eigen::VectorXd(3)};
-    for (int i = 0; i < 3; ++i) {
-      const Variable variable = free->variables()[static_cast<std::size_t>(i)];
-      point.x[i] = std::lerp(variable.lower, variable.upper, share);
+  const auto names_of = [&](const Configuration& configuration) {
+    std::vector<std::vector<std::string>> names;
+    const DesignSpace space = search_space_of(configuration, telescope, design_of(configuration));
+    for (const SubSpace& sub_space : space.sub_spaces()) {
+      auto& found = names.emplace_back();
+      for (const Variable& variable : sub_space.variables) found.push_back(variable.name);
     }
-    return free->planes(point);
+    return names;
   };
-  const double farthest = default_distance_range(telescope).second;
-  EXPECT_THAT(planes_at(0.0), ElementsAre(DoubleNear(-farthest, 1e-6), DoubleNear(5e3, 1e-6),
-                                          DoubleNear(-farthest, 1e-6)));
-  EXPECT_THAT(planes_at(1.0), ElementsAre(DoubleNear(farthest, 1e-6), DoubleNear(50e3, 1e-6),
-                                          DoubleNear(farthest, 1e-6)));
+  EXPECT_THAT(names_of(Configuration()),
+              ElementsAre(ElementsAre("log z_near", "log z_far", "order")));
+  EXPECT_THAT(names_of(with({{"search.layout", "free"},
+                             {"search.plane_count", "2:3"},
+                             {"search.z2", "5km"},
+                             {"search.tolerance", "0.1nm:1nm"},
+                             {"search.initial_guess", "centroid,flat"}})),
+              ElementsAre(ElementsAre("log z1", "initial_guess", "log tolerance"),
+                          ElementsAre("log z1", "log z3", "initial_guess", "log tolerance")));
+  EXPECT_THAT(
+      names_of(with(
+          {{"search.plane_count", "3"}, {"search.order", "124"}, {"search.relaxation", "0:0.5"}})),
+      ElementsAre(ElementsAre("log z_near", "log z_far", "relaxation")));
 }
 
 TEST(Settings, TheVerificationsScreensMustBeFresh) {

@@ -370,9 +370,11 @@ TEST_F(Studies, ScalingThereAndBackIsNoChange) {
     }
   }
   for (const char* key : {"search.z_near", "search.z_far"}) {
-    EXPECT_NEAR(returned.length_range(key)->first / original.length_range(key)->first, 1.0, 1e-12);
-    EXPECT_NEAR(returned.length_range(key)->second / original.length_range(key)->second, 1.0,
-                1e-12);
+    const auto range_of = [&](const Configuration& configuration) {
+      return std::get<ValueRange>(configuration.domain(key).value());
+    };
+    EXPECT_NEAR(range_of(returned).lower / range_of(original).lower, 1.0, 1e-12);
+    EXPECT_NEAR(range_of(returned).upper / range_of(original).upper, 1.0, 1e-12);
   }
   const Json json = summary("there");
   // z (d/D)^2 before and after: the beam twice as wide, at 532 / 1000 of the wavelength.

@@ -91,12 +91,59 @@ TEST(Units, ListsAllowSpacesButNoEmptyElement) {
   }
 }
 
-TEST(Units, RangesRunUpwards) {
-  EXPECT_THAT(parse_length_range("5km:100km"), Optional(Pair(5e3, 100e3)));
-  EXPECT_THAT(parse_length_range("-5km : 100"), Optional(Pair(-5e3, 100.0)));
-  for (const char* text : {"", ":", "5km", "5km:", ":5km", "5km:5km", "5km:1km", "1:2:3", "1-2"}) {
-    EXPECT_EQ(parse_length_range(text), std::nullopt) << text;
+TEST(ParseDomain, ReadsRangesAndLists) {
+  const auto range = [](std::string_view text) {
+    return std::get<ValueRange>(parse_domain(text, parse_length).value());
+  };
+  EXPECT_EQ(range("5km:100km").lower, 5e3);
+  EXPECT_EQ(range("-5km : 100").upper, 100.0);
+  EXPECT_EQ(range("5km:100km").scale, std::nullopt);
+  EXPECT_EQ(range("5km:100km:log").scale, Scale::logarithmic);
+  EXPECT_EQ(range("5km:100km: linear").scale, Scale::linear);
+  EXPECT_EQ(std::get<std::vector<double>>(parse_domain("5km, -1", parse_length).value()),
+            (std::vector{5e3, -1.0}));
+  EXPECT_EQ(std::get<std::vector<double>>(parse_domain("7", parse_number).value()),
+            (std::vector{7.0}));
+  for (const char* text : {"", ":", "5km:", ":5km", "5km:5km", "6km:5km", "1:2:3", "1:2:log:3",
+                           "1:2:", "1,,2", "1,2,", "a:b", "1:2,3"}) {
+    EXPECT_FALSE(parse_domain(text, parse_length)) << text;
   }
+}
+
+TEST(ParseAxis, ReadsPlacesWithBothEnds) {
+  const auto linear = parse_axis("5km:11km:4", parse_length).value();
+  EXPECT_EQ(linear, (std::vector{5e3, 7e3, 9e3, 11e3}));
+  const auto log = parse_axis("1:100:3:log", parse_number).value();
+  EXPECT_EQ(log.front(), 1.0);
+  EXPECT_NEAR(log[1], 10.0, 1e-12);
+  EXPECT_EQ(log.back(), 100.0);
+  EXPECT_EQ(parse_axis("-1:1:3", parse_number).value(), (std::vector{-1.0, 0.0, 1.0}));
+  EXPECT_EQ(parse_axis("3,1,2", parse_number).value(), (std::vector{3.0, 1.0, 2.0}));
+  for (const char* text : {"", "1:2", "1:2:1", "2:1:3", "1:2:x", "1:2:3:exp", "-1:1:3:log",
+                           "0:1:3:log", "1:2:3:log:4", "1:2:1000000", "1,,2"}) {
+    EXPECT_FALSE(parse_axis(text, parse_number)) << text;
+  }
+}
+
+TEST(ParseOrders, ReadsOrdersOfNumberedPlanes) {
+  EXPECT_EQ(parse_orders(" all "), std::vector<VisitingOrder>{});
+  EXPECT_EQ(parse_orders("3412, 12"), (std::vector<VisitingOrder>{{3, 4, 1, 2}, {1, 2}}));
+  EXPECT_TRUE(parse_orders("124"));
+  EXPECT_TRUE(parse_orders("612345"));
+  for (const char* text :
+       {"", "1", "11", "13", "1235", "1237", "0123", "3412,", "34 12", "alle", "1234567", "-12"}) {
+    EXPECT_FALSE(parse_orders(text)) << text;
+  }
+}
+
+TEST(WithLengths, ReplacesTheLengthsOfDomainsAndAxes) {
+  const auto twice = [](std::string_view text) {
+    return with_lengths(text, [](double length) { return 2.0 * length; });
+  };
+  EXPECT_EQ(twice("5km:10"), "10000:20");
+  EXPECT_EQ(twice("5km:10km:24:log"), "10000:20000:24:log");
+  EXPECT_EQ(twice("5km:10km:linear"), "10000:20000:linear");
+  EXPECT_EQ(twice("-5km,10mm"), "-10000,0.02");
 }
 
 TEST(Units, ARampIsANumberOrTwo) {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "objectives/design_space.hpp"
+#include "objectives/design_trial.hpp"
+#include "optimizer/problem.hpp"
+
+#include <string>
+#include <vector>
+
+namespace nlcwfs {
+
+/// The search for a sensor: each point of a design space is tried.
+class DesignProblem final : public Problem {
+ public:
+  /// @param space, trial  used by reference
+  DesignProblem(const DesignSpace& space, const DesignTrial& trial);
+
+  std::vector<SubSpace> sub_spaces() const override { return space_.sub_spaces(); }
+  /// See design_key.
+  std::string key(const SearchPoint& point) const override;
+  /// The detail is the TriedDesign.
+  Assessment assess(const SearchPoint& point, const GoesOn& goes_on) override;
+
+  const DesignSpace& space() const { return space_; }
+
+ private:
+  const DesignSpace& space_;
+  const DesignTrial& trial_;
+};
+
+}  // namespace nlcwfs

@@ -1,0 +1,89 @@
+#include "objectives/design_problem.hpp"
+
+#include "optimizer/chained_search.hpp"
+#include "tests/objectives/tiny_simulation.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+/// The cost in waves, so that it is the same for telescopes of all wavelengths.
+DesignCost cost_in_waves(const Telescope& telescope) {
+  return {.wfe_scale = telescope.wavelength / 50.0};
+}
+
+TEST(DesignProblem, CostsAreThoseOfTheTrial) {
+  const Telescope telescope;
+  const DesignTrial trial({tiny_condition(telescope)}, cost_in_waves(telescope));
+  const SensorDesign design = tiny_design(telescope);
+  const DesignSpace space(telescope, {.base = design});
+  DesignProblem problem(space, trial);
+
+  const Assessment found = problem.assess(space.point_of(design).value(), {});
+  const std::vector<double> costs = trial.run(design).costs;
+  ASSERT_EQ(found.costs.size(), costs.size());
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    EXPECT_NEAR(found.costs[i], costs[i], 1e-9 * costs[i]);
+  }
+  EXPECT_EQ(std::any_cast<TriedDesign>(found.detail).costs, found.costs);
+  EXPECT_EQ(problem.key(space.point_of(design).value()), design_key(design));
+}
+
+TEST(DesignProblem, AsksWhetherToGoOnAfterTheFirstScreens) {
+  const Telescope telescope;
+  const DesignTrial trial({tiny_condition(telescope, 4.0, 9)}, {});
+  const SensorDesign design = tiny_design(telescope);
+  const DesignSpace space(telescope, {.base = design});
+  DesignProblem problem(space, trial);
+  std::vector<std::size_t> asked;
+  const Assessment ended =
+      problem.assess(space.point_of(design).value(), [&](std::span<const double> costs) {
+        asked.push_back(costs.size());
+        return costs.size() < 8;
+      });
+  EXPECT_EQ(asked, (std::vector<std::size_t>{4, 8}));
+  EXPECT_EQ(ended.costs.size(), 8u);
+}
+
+/// The Fresnel numbers and costs of the designs that a search visits.
+struct Visits {
+  std::vector<double> fresnel_numbers;
+  std::vector<double> costs;
+};
+
+Visits search_at(const Telescope& telescope) {
+  const DesignTrial trial({tiny_condition(telescope)}, cost_in_waves(telescope));
+  const DesignSpace space(telescope, {.base = tiny_design(telescope)});
+  DesignProblem problem(space, trial);
+  Visits visits;
+  SearchOptions options;
+  options.evaluation.budget = 40;
+  options.evaluation.observer = [&](const EvaluationRecord& record) {
+    for (const double plane : space.design(record.point).planes) {
+      visits.fresnel_numbers.push_back(fresnel_number(telescope, plane));
+    }
+    visits.costs.push_back(record.cost);
+  };
+  search(problem, options);
+  return visits;
+}
+
+TEST(DesignProblem, ASearchVisitsTheSameFresnelNumbersAtEveryTelescope) {
+  const Visits small = search_at({.diameter = 0.5, .wavelength = 532e-9});
+  const Visits large = search_at({.diameter = 8.2, .wavelength = 1.06e-6});
+  ASSERT_EQ(small.costs.size(), 40u);
+  ASSERT_EQ(large.costs.size(), 40u);
+  for (std::size_t i = 0; i < small.fresnel_numbers.size(); ++i) {
+    EXPECT_NEAR(large.fresnel_numbers[i] / small.fresnel_numbers[i], 1.0, 1e-6) << i;
+  }
+  for (std::size_t i = 0; i < small.costs.size(); ++i) {
+    EXPECT_NEAR(large.costs[i] / small.costs[i], 1.0, 1e-6) << i;
+  }
+}
+
+}  // namespace
+}  // namespace nlcwfs
