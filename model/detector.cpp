@@ -19,6 +19,10 @@ constexpr double max_photons = 1e15;
 
 int Detector::width() const { return grid_width(window, pupil_pixels); }
 
+double Detector::photons_per_frame() const {
+  return photon_rate > 0.0 ? photon_rate * exposure : photons;
+}
+
 void Detector::validate() const {
   if (pupil_pixels < 4 || pupil_pixels > max_grid_width || pupil_pixels % 2 != 0) {
     throw InputError("detector.pupil_pixels", pupil_pixels,
@@ -29,12 +33,32 @@ void Detector::validate() const {
     throw InputError("detector.photons", photons,
                      fmt::format("from 0 (= no photon noise) to {:g}", max_photons));
   }
+  if (!(photon_rate >= 0.0) || !std::isfinite(photon_rate)) {
+    throw InputError("detector.photon_rate", photon_rate, "at least 0 photons per second");
+  }
+  if (!(exposure >= 0.0) || !std::isfinite(exposure)) {
+    throw InputError("detector.exposure", exposure, "a time of at least 0, such as 1ms");
+  }
+  if (photon_rate > 0.0 && photons > 0.0) {
+    throw InputError("detector.photon_rate", photon_rate,
+                     fmt::format("set only one of it and detector.photons, which is {}", photons));
+  }
+  if (photon_rate > 0.0 && exposure == 0.0) {
+    throw InputError("detector.photon_rate", photon_rate,
+                     "needs detector.exposure above 0, such as 1ms");
+  }
+  if (!(photons_per_frame() <= max_photons)) {
+    throw InputError("detector.photon_rate", photon_rate,
+                     fmt::format("at most {:g} photons in detector.exposure, which is {} s",
+                                 max_photons, exposure));
+  }
   if (!(read_noise >= 0.0) || !std::isfinite(read_noise)) {
     throw InputError("detector.read_noise", read_noise, "at least 0 electrons");
   }
-  if (read_noise > 0.0 && photons == 0.0) {
+  if (read_noise > 0.0 && photons_per_frame() == 0.0) {
     throw InputError("detector.read_noise", read_noise,
-                     "needs detector.photons above 0, which says how many electrons the light is");
+                     "needs detector.photons or detector.photon_rate above 0, which say how many "
+                     "electrons the light is");
   }
 }
 

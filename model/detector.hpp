@@ -11,8 +11,13 @@ struct Detector {
   int pupil_pixels = 64;    ///< pixels across the pupil diameter, even
   double window = 4.0;      ///< width in pupil diameters, at least 1
   double photons = 0.0;     ///< photons per frame in all planes together; 0 = no photon noise
-  double read_noise = 0.0;  ///< electrons RMS per pixel; needs photons
+  double read_noise = 0.0;  ///< electrons RMS per pixel; needs light
+  /// Photons per second in all planes together, in place of `photons`; needs an exposure. 0 = none.
+  double photon_rate = 0.0;
+  double exposure = 0.0;  ///< s; 0 = not known
 
+  /// Photons in all planes together; 0 = no photon noise.
+  double photons_per_frame() const;
   /// Pixels along each side of the detector: window x pupil_pixels.
   int width() const;
 

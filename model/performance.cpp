@@ -24,14 +24,14 @@ std::span<const PerformanceMetric> performance_metrics() {
   using Screen = const ScreenPerformance&;
   static constexpr double nm = 1e-9;
   static constexpr std::array<PerformanceMetric, 8> metrics{{
-      {"residual_wfe_nm", [](Screen screen) { return screen.wavefront.residual_wfe / nm; }},
-      {"wrapped_wfe_nm", [](Screen screen) { return screen.wavefront.wrapped_wfe / nm; }},
-      {"total_wfe_nm", [](Screen screen) { return screen.wavefront.total_wfe / nm; }},
-      {"field_strehl", [](Screen screen) { return screen.wavefront.field_strehl; }},
-      {"loops", [](Screen screen) { return double(screen.loops); }},
-      {"fractional_loops", [](Screen screen) { return screen.fractional_loops; }},
-      {"seconds", [](Screen screen) { return screen.seconds; }},
-      {"fft_count", [](Screen screen) { return double(screen.fft_count); }},
+      {"residual_wfe_nm", "nm", [](Screen screen) { return screen.wavefront.residual_wfe / nm; }},
+      {"wrapped_wfe_nm", "nm", [](Screen screen) { return screen.wavefront.wrapped_wfe / nm; }},
+      {"total_wfe_nm", "nm", [](Screen screen) { return screen.wavefront.total_wfe / nm; }},
+      {"field_strehl", "", [](Screen screen) { return screen.wavefront.field_strehl; }},
+      {"loops", "", [](Screen screen) { return double(screen.loops); }},
+      {"fractional_loops", "", [](Screen screen) { return screen.fractional_loops; }},
+      {"seconds", "s", [](Screen screen) { return screen.seconds; }},
+      {"fft_count", "", [](Screen screen) { return double(screen.fft_count); }},
   }};
   return metrics;
 }

@@ -45,6 +45,7 @@ struct Performance {
 /// A figure of merit as users see it: its name ends with its unit.
 struct PerformanceMetric {
   std::string_view name;
+  std::string_view unit;  ///< "nm", "s"; empty for what has none
   double (*value)(const ScreenPerformance&);
 
   double operator()(const ScreenPerformance& screen) const { return value(screen); }

@@ -79,6 +79,15 @@ double von_karman_structure_function(double separation, const Seeing& seeing) {
   return saturation * (1.0 - von_karman_correlation(x));
 }
 
+double greenwood_frequency(double wind_speed, double fried_parameter) {
+  return 0.427 * wind_speed / fried_parameter;
+}
+
+double servo_lag_variance(double delay, double greenwood_frequency) {
+  assert(delay >= 0.0);
+  return 28.4 * std::pow(delay * greenwood_frequency, 5.0 / 3.0);
+}
+
 double noll_piston_removed_variance(double diameter, double fried_parameter) {
   return 1.0299 * std::pow(diameter / fried_parameter, 5.0 / 3.0);
 }

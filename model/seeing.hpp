@@ -37,6 +37,21 @@ double kolmogorov_structure_function(double separation, double fried_parameter);
 /// Source: Conan 2008, JOSA A 25, 526.
 double von_karman_structure_function(double separation, const Seeing& seeing);
 
+/// Greenwood frequency in Hz of a single frozen layer: f_G = 0.427 v / r0.
+/// @param wind_speed       v, m/s
+/// @param fried_parameter  r0, m
+/// Source: Greenwood 1977, JOSA 67, 390.
+double greenwood_frequency(double wind_speed, double fried_parameter);
+
+/// Mean squared phase in rad^2 by which Kolmogorov turbulence changes at a point during a delay:
+/// 28.4 (tau f_G)^(5/3). For a single frozen layer it is the structure function at v tau, since
+/// 28.4 = 6.88 / 0.427^(5/3). It counts all of the change, also that of piston and tilt: an upper
+/// bound for a pupil of finite size.
+/// @param delay                tau >= 0, s
+/// @param greenwood_frequency  f_G, Hz
+/// Source: Fried 1990, JOSA A 7, 1224.
+double servo_lag_variance(double delay, double greenwood_frequency);
+
 /// Kolmogorov phase variance in rad^2 over a circular pupil, piston removed:
 /// 1.0299 (D/r0)^(5/3). Source: Noll 1976, JOSA 66, 207, table IV.
 double noll_piston_removed_variance(double diameter, double fried_parameter);

@@ -112,8 +112,9 @@ class Experiment {
     std::vector<Image<double>> images;
     images.reserve(light.size());
     for (const ImageCache::SharedImage& image : light) images.push_back(*image);
-    if (detector_.photons == 0.0) return images;
-    const double photons_per_unit = detector_.photons / double(images.size()) / pupil_energy();
+    const double photons = detector_.photons_per_frame();
+    if (photons == 0.0) return images;
+    const double photons_per_unit = photons / double(images.size()) / pupil_energy();
     for (std::size_t plane = 0; plane < images.size(); ++plane) {
       RandomStream stream = random_stream({options_.noise_seed, screen, noise_keys_[plane]});
       add_noise(images[plane], photons_per_unit, detector_.read_noise, stream);

@@ -1,6 +1,8 @@
 #include "objectives/design_cost.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nlcwfs {
 namespace {
@@ -19,18 +21,54 @@ double wavefront_error(const WavefrontMetrics& wavefront, WavefrontErrorKind kin
 
 }  // namespace
 
+double MetricBound::excess(double value) const {
+  return std::max(0.0, side == Side::above ? value - bound : bound - value);
+}
+
 std::vector<double> DesignCost::per_screen(const Performance& performance,
-                                           const SensorDesign& design) const {
-  const double transform_cost = time_weight * transform_seconds(design);
+                                           const SensorDesign& design,
+                                           double fried_parameter) const {
+  const MetricContext context{design, operation, fried_parameter};
+  const double transform_cost = time_weight * operation.transform_seconds(design);
+  const DesignMetric* const error_budget = find_design_metric("error_budget_nm");
   return performance.samples_of([&](const ScreenPerformance& screen) {
-    return wavefront_error(screen.wavefront, wfe) / wfe_scale +
-           loop_weight * screen.fractional_loops + transform_cost * screen.fft_count;
+    double cost = kind == CostKind::error_budget
+                      ? error_budget->value(screen, context)
+                      : wavefront_error(screen.wavefront, wfe) / wfe_scale +
+                            loop_weight * screen.fractional_loops +
+                            transform_cost * screen.fft_count;
+    for (const CostTerm& term : terms) cost += term.weight * term.metric.value(screen, context);
+    for (const auto& [penalised, weight] : penalties) {
+      cost += weight * penalised.excess(penalised.metric.value(screen, context));
+    }
+    return cost;
   });
 }
 
-double DesignCost::transform_seconds(const SensorDesign& design) const {
-  const double samples = double(design.grid_width()) * design.grid_width();
-  return 5.0 * samples * std::log2(samples) / fft_rate;
+double DesignCost::violation(const Performance& performance, const SensorDesign& design,
+                             double fried_parameter) const {
+  const MetricContext context{design, operation, fried_parameter};
+  double violation = 0.0;
+  for (const MetricBound& limit : limits) {
+    const double mean = performance
+                            .mean_of([&](const ScreenPerformance& screen) {
+                              return limit.metric.value(screen, context);
+                            })
+                            .mean;
+    // Against a bound of 0 every excess is large, and finite.
+    violation += limit.excess(mean) /
+                 std::max(std::abs(limit.bound), std::numeric_limits<double>::epsilon());
+  }
+  return violation;
+}
+
+void DesignCost::validate() const {
+  ScreenPerformance screen;
+  screen.loops = 1;
+  screen.captured_energy = {1.0};
+  const Performance any{{screen}};
+  (void)per_screen(any, {}, 1.0);
+  (void)violation(any, {}, 1.0);
 }
 
 }  // namespace nlcwfs

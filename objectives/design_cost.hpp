@@ -2,6 +2,7 @@
 
 #include "model/performance.hpp"
 #include "model/sensor_design.hpp"
+#include "objectives/design_metric.hpp"
 
 #include <vector>
 
@@ -10,24 +11,65 @@ namespace nlcwfs {
 /// Which wavefront error a cost counts; see WavefrontMetrics.
 enum class WavefrontErrorKind { residual, wrapped, total };
 
-/// Makes one number of a design's performance:
-///   cost = WFE / wfe_scale + loop_weight x fractional loops + time_weight x reconstruction time.
-/// Every term is a mean over the screens, so the cost of each screen is defined and designs can be
+/// What a cost starts from.
+enum class CostKind {
+  weighted,     ///< WFE / wfe_scale + loop_weight x fractional loops + time_weight x model time
+  error_budget  ///< error_budget_nm
+};
+
+/// A metric in a cost, times a weight.
+struct CostTerm {
+  DesignMetric metric;
+  double weight;  ///< per unit of the metric
+};
+
+/// A side of a metric's value.
+enum class Side { above, below };
+
+/// Values of a metric on one side of a bound, which is in the metric's unit.
+struct MetricBound {
+  DesignMetric metric;
+  Side side;
+  double bound;
+
+  /// How far a value lies on the side, in the metric's unit; 0 where it does not.
+  double excess(double value) const;
+};
+
+/// Values that cost extra.
+struct Penalty {
+  MetricBound penalised;
+  double weight;  ///< per unit of the metric that it is beyond the bound
+};
+
+/// Makes one number of a design's performance: the kind's cost, and on top the terms and the
+/// penalties.
+/// Every part is a mean over the screens, so the cost of each screen is defined and designs can be
 /// compared screen by screen.
 struct DesignCost {
+  CostKind kind = CostKind::weighted;
   WavefrontErrorKind wfe = WavefrontErrorKind::residual;
   double wfe_scale = 10e-9;  ///< m
   double loop_weight = 0.1;  ///< per loop
   double time_weight = 0.0;  ///< 1/s
-  double fft_rate = 5e9;     ///< floating-point operations per second of one transform, 1/s
+  std::vector<CostTerm> terms = {};
+  std::vector<Penalty> penalties = {};
+  std::vector<MetricBound> limits = {};  ///< what a design's mean must not be; costs nothing
+  Operation operation = {};
 
   /// The cost of each screen.
-  std::vector<double> per_screen(const Performance& performance, const SensorDesign& design) const;
+  /// @param fried_parameter  of the seeing at the telescope's wavelength, m
+  /// @throws InputError naming the key where a metric needs what is not set
+  std::vector<double> per_screen(const Performance& performance, const SensorDesign& design,
+                                 double fried_parameter) const;
 
-  /// Time of one two-dimensional transform of the design's reconstruction grid of N x N samples, s:
-  /// 5 N^2 log2(N^2) operations (the convention of Frigo & Johnson 2005) over fft_rate. A model
-  /// rather than a clock, so that searches are repeatable.
-  double transform_seconds(const SensorDesign& design) const;
+  /// By how much the means over the screens break the limits: the sum of each one's excess relative
+  /// to its bound; 0 where all are kept.
+  double violation(const Performance& performance, const SensorDesign& design,
+                   double fried_parameter) const;
+
+  /// @throws InputError naming the key where a metric needs what is not set
+  void validate() const;
 };
 
 }  // namespace nlcwfs

@@ -11,19 +11,11 @@ namespace {
 constexpr int first_block = 4;
 
 SensorDesign under(const Condition& condition, SensorDesign design) {
-  if (condition.light) design.detector.photons = *condition.light;
-  return design;
-}
-
-/// Of each screen: the mean over the conditions.
-std::vector<double> costs_of(const TriedDesign& tried, const DesignCost& cost) {
-  std::vector<double> costs(tried.performances.front().screens.size());
-  for (const Performance& performance : tried.performances) {
-    const std::vector<double> of_condition = cost.per_screen(performance, tried.design);
-    for (std::size_t i = 0; i < costs.size(); ++i) costs[i] += of_condition[i];
+  Detector& detector = design.detector;
+  if (condition.light) {
+    (detector.photon_rate > 0.0 ? detector.photon_rate : detector.photons) = *condition.light;
   }
-  for (double& value : costs) value /= double(tried.performances.size());
-  return costs;
+  return design;
 }
 
 }  // namespace
@@ -49,9 +41,25 @@ TriedDesign DesignTrial::run(const SensorDesign& design,
       std::ranges::move(block.screens, std::back_inserter(tried.performances[k].screens));
     }
     done = next;
-    tried.costs = costs_of(tried, cost_);
+    set_costs(tried);
   } while (done < screen_count() && goes_on(tried.costs));
   return tried;
+}
+
+void DesignTrial::set_costs(TriedDesign& tried) const {
+  tried.costs.assign(tried.performances.front().screens.size(), 0.0);
+  tried.violation = 0.0;
+  for (std::size_t k = 0; k < conditions_.size(); ++k) {
+    const Condition& condition = conditions_[k];
+    const SensorDesign design = under(condition, tried.design);
+    const Performance& performance = tried.performances[k];
+    const std::vector<double> costs =
+        cost_.per_screen(performance, design, condition.fried_parameter);
+    for (std::size_t i = 0; i < costs.size(); ++i) tried.costs[i] += costs[i];
+    tried.violation =
+        std::max(tried.violation, cost_.violation(performance, design, condition.fried_parameter));
+  }
+  for (double& cost : tried.costs) cost /= double(conditions_.size());
 }
 
 SensorDesign DesignTrial::checked(SensorDesign design) const {

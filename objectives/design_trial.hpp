@@ -18,8 +18,8 @@ namespace nlcwfs {
 struct Condition {
   std::string name;                              ///< for people: "D/r0 = 4, 100000 photons"
   std::shared_ptr<const Simulation> simulation;  ///< conditions of one seeing share it
-  std::optional<double> light = {};              ///< replaces the design's photons
-  double fried_parameter = 0.0;                  ///< r0 at the telescope's wavelength, m
+  std::optional<double> light = {};  ///< replaces the design's photons, or photon_rate if used
+  double fried_parameter = 0.0;      ///< r0 at the telescope's wavelength, m
 };
 
 /// A design with how it did.
@@ -27,7 +27,7 @@ struct TriedDesign {
   SensorDesign design;
   std::vector<Performance> performances;  ///< one per condition
   std::vector<double> costs;              ///< of each screen; their mean is the design's cost
-  double violation = 0.0;                 ///< of the limits, relative; 0 = all kept
+  double violation = 0.0;                 ///< of the limits, in the worst condition; 0 = all kept
 };
 
 /// Tries designs under a list of conditions, and costs them. All conditions have as many screens;
@@ -53,6 +53,9 @@ class DesignTrial {
   const DesignCost& cost() const { return cost_; }
 
  private:
+  /// From the performances.
+  void set_costs(TriedDesign& tried) const;
+
   std::vector<Condition> conditions_;
   DesignCost cost_;
 };

@@ -49,7 +49,9 @@ Json to_json(const SensorDesign& design, const Telescope& telescope, double frie
   }
   json["pupil_pixels"] = design.detector.pupil_pixels;
   json["detector_window"] = design.detector.window;
-  json["photons"] = design.detector.photons;
+  json["photons"] = design.detector.photons_per_frame();
+  json["photon_rate"] = design.detector.photon_rate;
+  json["exposure_s"] = design.detector.exposure;
   json["read_noise"] = design.detector.read_noise;
   json["max_loops"] = reconstruction.max_loops;
   json["tolerance_m"] = reconstruction.tolerance;

@@ -1,3 +1,4 @@
+#include "objectives/design_metric.hpp"
 #include "studies/design_text.hpp"
 #include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
@@ -30,6 +31,7 @@ struct EvaluationTime {
   double data_seconds;            ///< to make the data, mean over the screens
   double reconstruction_seconds;  ///< mean over the screens
   double loops;                   ///< mean over the screens
+  double transforms;              ///< mean over the screens
 
   double loop_seconds() const { return reconstruction_seconds / loops; }
 };
@@ -43,7 +45,8 @@ EvaluationTime timed_evaluation(const Simulation& simulation, const SensorDesign
   return {.seconds = elapsed.count(),
           .data_seconds = mean([](Screen screen) { return screen.data_seconds; }),
           .reconstruction_seconds = mean([](Screen screen) { return screen.seconds; }),
-          .loops = mean([](Screen screen) { return double(screen.loops); })};
+          .loops = mean([](Screen screen) { return double(screen.loops); }),
+          .transforms = mean([](Screen screen) { return double(screen.fft_count); })};
 }
 
 /// The same on one thread, whatever the number of threads around.
@@ -84,6 +87,8 @@ struct Speed {
   double reconstruction_seconds;
   double loops;
   double design_seconds;  ///< on all screens of the configuration
+  /// That the cost's model of time would need to predict the reconstruction on one thread alone.
+  double fft_rate;  // 1/s
 };
 
 /// What is timed, and how thoroughly.
@@ -165,8 +170,12 @@ class Benchmark {
             .data_seconds = median_of(together, &EvaluationTime::data_seconds),
             .reconstruction_seconds = median_of(together, &EvaluationTime::reconstruction_seconds),
             .loops = together.front().loops,
-            .design_seconds = median_of(together, &EvaluationTime::seconds) * configured_screens_ /
-                              used_screens_};
+            .design_seconds =
+                median_of(together, &EvaluationTime::seconds) * configured_screens_ / used_screens_,
+            .fft_rate = median_of(trial.alone, [this](const EvaluationTime& time) {
+              return Operation{.fft_rate = 1.0}.transform_seconds(design_) * time.transforms /
+                     time.reconstruction_seconds;
+            })};
   }
 
   std::vector<std::string> notes_;
@@ -224,7 +233,8 @@ Json to_json(const Speed& speed, double search_seconds) {
           {"loops", speed.loops},
           {"design_seconds", speed.design_seconds},
           {"designs_per_minute", 60.0 / speed.design_seconds},
-          {"search_seconds", search_seconds}};
+          {"search_seconds", search_seconds},
+          {"fft_rate", speed.fft_rate}};
 }
 
 /// How long the configured search takes if all its designs are like this one, s.
@@ -275,6 +285,9 @@ void print_speeds(const Speed& in_double, const Speed& in_single, const Benchmar
   row(fmt::format("  search of {}{}", configuration.is_set("search.time_limit") ? "at most " : "",
                   counted(configuration.integer("search.budget"), "design")),
       [&](const Speed& speed) { return estimate_text(search_seconds(speed, configuration)); });
+  fmt::print("\n");
+  row("objective.fft_rate of one thread alone, 1/s",
+      [](const Speed& speed) { return fmt::format("{:.2g}", speed.fft_rate); });
 }
 
 void print_reading(const Benchmark& benchmark, double memory) {
@@ -290,7 +303,8 @@ void print_reading(const Benchmark& benchmark, double memory) {
       "A search takes that long if its designs need as many loops as this one and share no "
       "planes,\n"
       "then verifies its best one. More threads pay as long as loops per second grow with them "
-      "(--threads).\n");
+      "(--threads).\n"
+      "objective.fft_rate is what the time in a cost should be predicted with on this machine.\n");
 }
 
 }  // namespace

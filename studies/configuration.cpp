@@ -326,6 +326,10 @@ double Configuration::number(std::string_view key) const {
   return parse_number(text_of(key, Kind::number)).value();
 }
 
+std::optional<double> Configuration::optional_number(std::string_view key) const {
+  return parse_number(text_of(key, Kind::number));
+}
+
 int Configuration::integer(std::string_view key) const {
   return parse_integer(text_of(key, Kind::integer)).value();
 }

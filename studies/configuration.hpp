@@ -103,6 +103,8 @@ class Configuration {
   void set(std::string_view key, std::string_view value, std::string_view source);
 
   double number(std::string_view key) const;
+  /// Nothing where not set.
+  std::optional<double> optional_number(std::string_view key) const;
   int integer(std::string_view key) const;
   std::uint64_t seed(std::string_view key) const;
   /// m

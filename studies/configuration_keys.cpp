@@ -180,6 +180,19 @@ std::vector<ConfigurationKey> make_keys() {
        .unit = "photons",
        .bounds = at_least(0),
        .example = "1e5"},
+      {.name = "detector.photon_rate",
+       .kind = Kind::number,
+       .default_text = "0",
+       .description = "Light per second in all planes together, instead of photons: a frame has "
+                      "photon_rate x exposure photons; 0 = not used.",
+       .unit = "photons/s",
+       .bounds = at_least(0),
+       .example = "1e8"},
+      {.name = "detector.exposure",
+       .kind = Kind::time,
+       .description = "Exposure time of a frame, which counts towards the latency.",
+       .bounds = above(0),
+       .example = "1ms"},
       {.name = "detector.read_noise",
        .kind = Kind::number,
        .default_text = "0",
@@ -259,13 +272,19 @@ std::vector<ConfigurationKey> make_keys() {
                       "verification is always in double.",
        .choices = {"double", "single"}},
 
+      {.name = "objective.kind",
+       .kind = Kind::choice,
+       .default_text = "weighted",
+       .description = "The cost: wfe / wfe_scale + loop_weight x loops + time_weight x time "
+                      "(weighted), or total WFE and servo lag together in nm, without these "
+                      "weights (error_budget, which needs greenwood_frequency or wind_speed).",
+       .choices = {"weighted", "error_budget"}},
       {.name = "objective.wfe",
        .kind = Kind::choice,
-       .default_text = "residual",
-       .description = "Wavefront error in the cost = wfe / wfe_scale + loop_weight x loops + "
-                      "time_weight x time: against the truth on the reconstruction's samples, of "
-                      "the unwrapped (residual) or the wrapped phase, or at the truth's full "
-                      "resolution (total).",
+       .description = "Wavefront error in the weighted cost: against the truth on the "
+                      "reconstruction's samples, of the unwrapped (residual) or the wrapped phase, "
+                      "or at the truth's full resolution (total). Not set: residual, or total "
+                      "where designs with different pupil_pixels are compared.",
        .choices = {"residual", "wrapped", "total"}},
       {.name = "objective.wfe_scale",
        .kind = Kind::length,
@@ -287,9 +306,51 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::number,
        .default_text = "5e9",
        .description = "Floating point operations per second of one Fourier transform, from which "
-                      "the time of a reconstruction is predicted.",
+                      "the time of a reconstruction is predicted; the command benchmark measures "
+                      "it.",
        .unit = "1/s",
        .bounds = above(0)},
+      {.name = "objective.terms",
+       .kind = Kind::text,
+       .description = "METRIC:WEIGHT, separated by commas: adds WEIGHT x the metric to the cost.",
+       .example = "latency_seconds:100,plane_count:0.05"},
+      {.name = "objective.penalties",
+       .kind = Kind::text,
+       .description =
+           "METRIC>BOUND:WEIGHT or METRIC<BOUND:WEIGHT, separated by commas: adds WEIGHT "
+           "for each unit by which a screen's metric is above or below the bound.",
+       .example = "total_wfe_nm>30:0.1,captured_energy<0.9:10"},
+      {.name = "objective.limits",
+       .kind = Kind::text,
+       .description = "METRIC<BOUND or METRIC>BOUND, separated by commas: what must hold for a "
+                      "design's mean over the screens.",
+       .example = "latency_seconds<5e-3,field_strehl>0.9"},
+      {.name = "objective.time_per_loop",
+       .kind = Kind::time,
+       .description = "Time of one loop in the latency. Not set: its Fourier transforms, by "
+                      "fft_rate.",
+       .bounds = above(0),
+       .example = "20us"},
+      {.name = "objective.readout_time_per_pixel",
+       .kind = Kind::time,
+       .default_text = "0",
+       .description = "Read-out time of one detector pixel in the latency, which has the pixels of "
+                      "all planes.",
+       .bounds = at_least(0),
+       .example = "0.001us"},
+      {.name = "objective.greenwood_frequency",
+       .kind = Kind::number,
+       .description = "Greenwood frequency of the turbulence at telescope.wavelength, for the "
+                      "servo lag.",
+       .unit = "Hz",
+       .bounds = above(0),
+       .example = "30"},
+      {.name = "objective.wind_speed",
+       .kind = Kind::number,
+       .description = "Wind speed of the turbulence, instead of greenwood_frequency: 0.427 v / r0.",
+       .unit = "m/s",
+       .bounds = above(0),
+       .example = "10"},
 
       {.name = "search.layout",
        .kind = Kind::choice,

@@ -5,6 +5,7 @@
 #include "model/screen_resampling.hpp"
 #include "model/turbulence_screen.hpp"
 #include "results/fits_cube.hpp"
+#include "studies/metric_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -179,7 +180,9 @@ SensorDesign design_of(const Configuration& configuration) {
           .detector = {.pupil_pixels = configuration.integer("detector.pupil_pixels"),
                        .window = configuration.number("detector.window"),
                        .photons = configuration.number("detector.photons"),
-                       .read_noise = configuration.number("detector.read_noise")},
+                       .read_noise = configuration.number("detector.read_noise"),
+                       .photon_rate = configuration.number("detector.photon_rate"),
+                       .exposure = configuration.optional_time("detector.exposure").value_or(0.0)},
           .reconstruction = {
               .max_loops = configuration.integer("reconstruction.max_loops"),
               .tolerance = configuration.length("reconstruction.tolerance"),
@@ -211,15 +214,41 @@ SensorDesign baseline_of(const Configuration& configuration) {
   return design;
 }
 
-DesignCost cost_of(const Configuration& configuration) {
-  return {.wfe = choice_of<WavefrontErrorKind>(configuration, "objective.wfe",
-                                               {{"residual", WavefrontErrorKind::residual},
-                                                {"wrapped", WavefrontErrorKind::wrapped},
-                                                {"total", WavefrontErrorKind::total}}),
-          .wfe_scale = configuration.length("objective.wfe_scale"),
-          .loop_weight = configuration.number("objective.loop_weight"),
-          .time_weight = configuration.number("objective.time_weight"),
-          .fft_rate = configuration.number("objective.fft_rate")};
+DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
+  DesignCost cost{
+      .kind = choice_of<CostKind>(
+          configuration, "objective.kind",
+          {{"weighted", CostKind::weighted}, {"error_budget", CostKind::error_budget}}),
+      .wfe = pixels_vary ? WavefrontErrorKind::total : WavefrontErrorKind::residual,
+      .wfe_scale = configuration.length("objective.wfe_scale"),
+      .loop_weight = configuration.number("objective.loop_weight"),
+      .time_weight = configuration.number("objective.time_weight"),
+      .terms = parse_terms("objective.terms", configuration.text("objective.terms")),
+      .penalties =
+          parse_penalties("objective.penalties", configuration.text("objective.penalties")),
+      .limits = parse_limits("objective.limits", configuration.text("objective.limits")),
+      .operation = {
+          .wavelength = configuration.length("telescope.wavelength"),
+          .fft_rate = configuration.number("objective.fft_rate"),
+          .time_per_loop = configuration.optional_time("objective.time_per_loop"),
+          .readout_time_per_pixel =
+              *configuration.optional_time("objective.readout_time_per_pixel"),
+          .greenwood_frequency = configuration.optional_number("objective.greenwood_frequency"),
+          .wind_speed = configuration.optional_number("objective.wind_speed")}};
+  if (configuration.is_set("objective.wfe")) {
+    cost.wfe = choice_of<WavefrontErrorKind>(configuration, "objective.wfe",
+                                             {{"residual", WavefrontErrorKind::residual},
+                                              {"wrapped", WavefrontErrorKind::wrapped},
+                                              {"total", WavefrontErrorKind::total}});
+  }
+  if (cost.operation.greenwood_frequency && cost.operation.wind_speed) {
+    throw InputError("objective.wind_speed", configuration.value_text("objective.wind_speed"),
+                     fmt::format("set only one of it and objective.greenwood_frequency, which is "
+                                 "{}",
+                                 configuration.value_text("objective.greenwood_frequency")));
+  }
+  cost.validate();
+  return cost;
 }
 
 DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
@@ -270,17 +299,17 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
 }
 
 DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
-                     std::vector<std::string>& notes) {
+                     std::vector<std::string>& notes, bool pixels_vary) {
   const Telescope telescope = telescope_of(configuration);
   const SimulationOptions options = simulation_options_of(configuration, precision_key);
   // Before the screens, which may take long.
   simulated_design(design_of(configuration), telescope, options.truth,
                    truth_samples(configuration));
   return {{condition_of(configuration, telescope, screens_of(configuration, notes), options)},
-          cost_of(configuration)};
+          cost_of(configuration, pixels_vary)};
 }
 
-DesignTrial verification_trial_of(const Configuration& configuration) {
+DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary) {
   const Telescope telescope = telescope_of(configuration);
   const std::uint64_t seed = configuration.seed("verify.seed");
   const int factor = configuration.integer("verify.truth_factor");
@@ -307,7 +336,7 @@ DesignTrial verification_trial_of(const Configuration& configuration) {
                             configuration, telescope, truth_samples(configuration) * factor,
                             verification_screens(configuration), "verify.screens", "verify.seed"),
                         options)},
-          cost_of(configuration)};
+          cost_of(configuration, pixels_vary)};
 }
 
 }  // namespace nlcwfs

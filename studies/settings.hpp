@@ -33,7 +33,10 @@ SensorDesign design_of(const Configuration& configuration);
 /// The same with the planes, relaxation and first estimate of the section baseline.
 SensorDesign baseline_of(const Configuration& configuration);
 
-DesignCost cost_of(const Configuration& configuration);
+/// The section objective.
+/// @param pixels_vary  whether the designs to be compared differ in the pixels across the pupil: by
+///                     default they are then compared by their total WFE
+DesignCost cost_of(const Configuration& configuration, bool pixels_vary);
 
 /// What the section search lets vary.
 /// @param base  gives everything else
@@ -57,12 +60,13 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
 
 /// What designs are tried under: the simulations of the sections screens and simulation; precision
 /// and notes as above.
+/// @param pixels_vary  see cost_of
 DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
-                     std::vector<std::string>& notes);
+                     std::vector<std::string>& notes, bool pixels_vary = false);
 
 /// The trial that results are verified in: verify.screens fresh screens of verify.seed, on a truth
 /// verify.truth_factor times as fine, in double precision. A matched truth that is refined no
 /// longer matches the reconstruction's grid, so it becomes an extended one.
-DesignTrial verification_trial_of(const Configuration& configuration);
+DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary = false);
 
 }  // namespace nlcwfs

@@ -50,6 +50,35 @@ TEST(Detector, NamesTheKeyAndTheValueOfWhatIsNotAllowed) {
               StartsWith("detector.read_noise = 3: needs detector.photons"));
 }
 
+TEST(Detector, RefusesALightThatIsNotOne) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto message = [](const Detector& detector) {
+    return message_of([&] { detector.validate(); });
+  };
+  EXPECT_EQ(message({.read_noise = 3.0, .photon_rate = 1e8, .exposure = 1e-3}), "");
+  EXPECT_EQ(message({.photons = 1e5, .exposure = 1e-3}), "");
+  EXPECT_THAT(message({.photons = 1e5, .photon_rate = 1e8, .exposure = 1e-3}),
+              StartsWith("detector.photon_rate = 100000000: set only one of it and "
+                         "detector.photons, which is 100000"));
+  EXPECT_THAT(message({.photon_rate = 1e8}),
+              StartsWith("detector.photon_rate = 100000000: needs detector.exposure above 0"));
+  EXPECT_THAT(message({.photon_rate = -1.0, .exposure = 1e-3}),
+              StartsWith("detector.photon_rate = -1: at least 0"));
+  EXPECT_THAT(message({.photon_rate = infinity, .exposure = 1e-3}),
+              StartsWith("detector.photon_rate = inf: at least 0"));
+  EXPECT_THAT(message({.exposure = -1.0}), StartsWith("detector.exposure = -1: a time"));
+  EXPECT_THAT(message({.exposure = nan}), StartsWith("detector.exposure = nan: a time"));
+  EXPECT_THAT(message({.photon_rate = 1e16, .exposure = 2.0}),
+              StartsWith("detector.photon_rate = 1e+16: at most 1e+15 photons in"));
+}
+
+TEST(Detector, AFrameHasThePhotonsOfItsExposure) {
+  EXPECT_EQ((Detector{.photons = 1e5, .exposure = 7.0}).photons_per_frame(), 1e5);
+  EXPECT_EQ((Detector{.photon_rate = 3e7, .exposure = 0.5}).photons_per_frame(), 1.5e7);
+  EXPECT_EQ(Detector().photons_per_frame(), 0.0);
+}
+
 TEST(Detector, IntegratesTheMeanIntensityOfEachPixel) {
   Field<double> field(4, 6);
   for (int row = 0; row < 4; ++row) {

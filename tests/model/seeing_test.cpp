@@ -1,6 +1,8 @@
 #include "model/seeing.hpp"
 
 #include "model/input_error.hpp"
+#include "model/screen_statistics.hpp"
+#include "model/turbulence_screen.hpp"
 
 #include <cmath>
 #include <limits>
@@ -41,6 +43,39 @@ TEST(Seeing, KolmogorovStructureFunctionIs6Point88AtTheFriedParameter) {
 TEST(Seeing, VarianceOverThePupilIsNolls) {
   EXPECT_DOUBLE_EQ(noll_piston_removed_variance(1.0, 0.125), 1.0299 * 32.0);
   EXPECT_DOUBLE_EQ(noll_tilt_removed_variance(1.0, 0.125), 0.134 * 32.0);
+}
+
+TEST(Seeing, ServoLagIsTheStructureFunctionOfASingleLayer) {
+  // 28.4 (tau f_G)^(5/3) = 6.88 (v tau / r0)^(5/3), to the constants' three digits.
+  for (const double delay : {0.0, 1e-5, 1e-3, 0.3}) {
+    for (const double wind : {0.5, 10.0, 80.0}) {
+      const double expected = kolmogorov_structure_function(wind * delay, 0.15);
+      EXPECT_NEAR(servo_lag_variance(delay, greenwood_frequency(wind, 0.15)), expected,
+                  1e-3 * expected);
+    }
+  }
+}
+
+TEST(Seeing, GreenwoodFrequencyIsThatOfItsIntegral) {
+  // Greenwood 1977: f_G = (0.102 k^2 int Cn2 v^(5/3) dz)^(3/5), r0 = (0.423 k^2 int Cn2 dz)^(-3/5).
+  EXPECT_NEAR(greenwood_frequency(10.0, 0.1), std::pow(0.102 / 0.423, 0.6) * 100.0, 0.3);
+}
+
+TEST(Seeing, ServoLagIsWhatAFrozenScreenChangesByAsItDrifts) {
+  constexpr int samples = 64;
+  const double diameter = 1.0;
+  const Seeing seeing{.fried_parameter = 0.1};
+  const std::vector<PhaseScreen> screens =
+      generate_screens(TurbulenceScreenGenerator(seeing, samples, diameter, 5), 100);
+  const double wind = 10.0;
+  const double frequency = greenwood_frequency(wind, seeing.fried_parameter);
+  for (const int drift : {1, 4, 16}) {
+    const MeanAndError changed = structure_function(screens, {.rows = 0, .columns = drift});
+    const double delay = drift * diameter / samples / wind;
+    EXPECT_NEAR(servo_lag_variance(delay, frequency), changed.mean,
+                4.0 * changed.standard_error + 1e-3 * changed.mean)
+        << drift;
+  }
 }
 
 TEST(VonKarman, AgreesWithSixtyDigitArithmeticFromTinyToLargeSeparations) {

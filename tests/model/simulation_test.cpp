@@ -147,6 +147,15 @@ TEST_P(SimulationTruth, AScreensResultDoesNotDependOnTheOthers) {
   expect_identical(evaluate(design_, {screens_[0]}, options_), first);
 }
 
+TEST_P(SimulationTruth, LightPerSecondIsLightPerFrameInItsExposure) {
+  design_.detector.photons = 1e5;
+  const Performance per_frame = evaluate(design_, screens_, options_);
+  design_.detector.photons = 0.0;
+  design_.detector.photon_rate = 1e8;
+  design_.detector.exposure = 1e-3;
+  expect_identical(evaluate(design_, screens_, options_), per_frame);
+}
+
 TEST_P(SimulationTruth, AScreensResultIsTheSameInABlock) {
   design_.detector.photons = 1e5;
   const Performance all = evaluate(design_, screens_, options_);

@@ -4,6 +4,8 @@
 #include "tests/objectives/tiny_simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -94,14 +96,55 @@ TEST_F(DesignTrialTest, TriesEachConditionsLightInItsSeeing) {
     SensorDesign lit = design_;
     if (k == 1) lit.detector.photons = 1e3;
     const std::vector<double> alone =
-        DesignTrial({Condition{three.conditions()[k].name, three.conditions()[k].simulation}}, {})
+        DesignTrial({{.name = "alone", .simulation = three.conditions()[k].simulation}}, {})
             .run(lit)
             .costs;
-    const std::vector<double> costs = three.cost().per_screen(tried.performances[k], design_);
-    EXPECT_EQ(costs, alone) << k;
+    EXPECT_EQ(three.cost().per_screen(tried.performances[k], lit, 1.0), alone) << k;
     for (std::size_t i = 0; i < 3; ++i) sums[i] += alone[i];
   }
   for (std::size_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(tried.costs[i], sums[i] / 3.0);
+}
+
+TEST_F(DesignTrialTest, ReplacesThePhotonRateWhereThatIsInUse) {
+  design_.detector.photon_rate = 1e6;
+  design_.detector.exposure = 2e-3;
+  Condition dim = tiny_condition(telescope_);
+  dim.light = 5e5;
+  SensorDesign counted = tiny_design(telescope_);
+  counted.detector.photons = 1e3;
+  EXPECT_EQ(DesignTrial({dim}, {}).run(design_).costs, trial(2, {}).run(counted).costs);
+}
+
+TEST_F(DesignTrialTest, TakesTheGreenwoodFrequencyOfEachConditionsSeeing) {
+  DesignCost cost{.wfe_scale = 1.0, .loop_weight = 0.0};
+  cost.terms = {{*find_design_metric("servo_wfe_nm"), 1.0}};
+  cost.operation.time_per_loop = 1e-3;
+  cost.operation.wind_speed = 10.0;
+  const DesignTrial two({tiny_condition(telescope_, 4.0), tiny_condition(telescope_, 8.0)}, cost);
+  const TriedDesign tried = two.run(design_);
+  std::vector<double> expected(2, 0.0);
+  for (std::size_t k : {0, 1}) {
+    const double frequency = 0.427 * 10.0 / (0.5 / (k == 0 ? 4.0 : 8.0));
+    for (std::size_t i : {0, 1}) {
+      const double delay = 1e-3 * tried.performances[k].screens[i].fractional_loops;
+      expected[i] += 0.5 * std::sqrt(28.4 * std::pow(delay * frequency, 5.0 / 3.0)) * 532.0 /
+                     (2.0 * std::numbers::pi);
+    }
+  }
+  for (std::size_t i : {0, 1}) EXPECT_NEAR(tried.costs[i], expected[i], 1e-6 * expected[i]);
+}
+
+TEST_F(DesignTrialTest, BreaksALimitByAsMuchAsInItsWorstCondition) {
+  DesignCost cost;
+  cost.limits = {{*find_design_metric("total_wfe_nm"), Side::above, 1.0}};
+  const Condition good = tiny_condition(telescope_, 4.0);
+  const Condition bad = tiny_condition(telescope_, 8.0);
+  const auto violation = [&](const std::vector<Condition>& conditions) {
+    return DesignTrial(conditions, cost).run(design_).violation;
+  };
+  EXPECT_GT(violation({bad}), violation({good}));
+  EXPECT_EQ(violation({good, bad}), violation({bad}));
+  EXPECT_EQ(violation({bad, good}), violation({bad}));
 }
 
 TEST_F(DesignTrialTest, ChecksADesignUnderEveryCondition) {

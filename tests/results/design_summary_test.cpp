@@ -82,6 +82,16 @@ TEST(DesignSummary, HasThePlanesInEveryUnit) {
   EXPECT_FALSE(json.contains("planes_bench_m"));
 }
 
+TEST(DesignSummary, HasThePhotonsOfAFrame) {
+  SensorDesign design;
+  design.detector.photon_rate = 2e8;
+  design.detector.exposure = 0.5;
+  const Json json = to_json(design, {}, 0.1);
+  EXPECT_EQ(json["photons"], 1e8);
+  EXPECT_EQ(json["photon_rate"], 2e8);
+  EXPECT_EQ(json["exposure_s"], 0.5);
+}
+
 TEST(DesignSummary, HasBenchDistancesBehindARelay) {
   const Telescope telescope{.diameter = 0.5, .wavelength = 500e-9, .relay_beam_diameter = 0.005};
   SensorDesign design;
@@ -93,7 +103,7 @@ TEST(DesignSummary, HasBenchDistancesBehindARelay) {
 }
 
 TEST(DesignSummary, TellsDesignsApartBySettingsOtherThanPlanes) {
-  std::vector<SensorDesign> designs(15);
+  std::vector<SensorDesign> designs(17);
   designs[1].detector.pupil_pixels = 32;
   designs[2].detector.window = 6.0;
   designs[3].detector.photons = 1e4;
@@ -108,6 +118,9 @@ TEST(DesignSummary, TellsDesignsApartBySettingsOtherThanPlanes) {
   designs[12].reconstruction.outside = OutsideDetector::zero;
   designs[13].reconstruction.oversampling = 2;
   designs[14].reconstruction.unwrapping = UnwrappingMethod::quality_guided;
+  designs[15].detector.photon_rate = 1e8;
+  designs[15].detector.exposure = 1e-3;
+  designs[16].detector.exposure = 1e-3;
   std::set<std::string> texts;
   for (const SensorDesign& design : designs) texts.insert(to_json(design, {}, 0.125).dump());
   EXPECT_EQ(texts.size(), designs.size());

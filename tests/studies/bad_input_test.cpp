@@ -86,7 +86,13 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
   expect_refused("evaluate", {"--seeing.fwhm", "0.8", "--seeing.fried_parameter", "10cm"},
                  "seeing.fried_parameter = 10cm", "set only one of");
   expect_refused("evaluate", {"--detector.read_noise", "3"}, "detector.read_noise = 3",
-                 "needs detector.photons above 0");
+                 "needs detector.photons or detector.photon_rate above 0");
+  expect_refused(
+      "evaluate",
+      {"--detector.photons", "1e5", "--detector.photon_rate", "1e8", "--detector.exposure", "1ms"},
+      "detector.photon_rate = 100000000", "only one of it and detector.photons");
+  expect_refused("evaluate", {"--detector.photon_rate", "1e8"}, "detector.photon_rate = 100000000",
+                 "needs detector.exposure");
   expect_refused("evaluate", {"--detector.pupil_pixels", "15"}, "detector.pupil_pixels = 15",
                  "an even number");
   expect_refused("evaluate", {"--detector.window", "2.05"}, "detector.window = 2.05",
@@ -166,6 +172,24 @@ TEST_F(BadInput, OfASearch) {
                  "verify.truth_factor = 2", "the finer truth does not suit the design");
   expect_refused("optimize", {"--search.budget", "0"}, "search.budget = 0", "from 1");
   expect_refused("optimize", {"--verify.screens", "1"}, "verify.screens = 1", "from 2");
+}
+
+TEST_F(BadInput, OfTheObjective) {
+  expect_refused("evaluate", {"--objective.kind", "error_budget"},
+                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+  expect_refused("optimize", {"--objective.limits", "servo_wfe_nm<20"},
+                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+  expect_refused(
+      "optimize", {"--objective.greenwood_frequency", "30", "--objective.wind_speed", "10"},
+      "objective.wind_speed = 10", "only one of it and objective.greenwood_frequency, which is 30");
+  expect_refused("evaluate", {"--objective.terms", "latency:3"}, "objective.terms = latency:3",
+                 "did you mean latency_seconds? There are residual_wfe_nm, ");
+  expect_refused("optimize", {"--objective.penalties", "loops>3"}, "objective.penalties = loops>3",
+                 "METRIC>BOUND:WEIGHT or METRIC<BOUND:WEIGHT");
+  expect_refused("optimize", {"--objective.limits", "loops"}, "objective.limits = loops",
+                 "METRIC<BOUND or METRIC>BOUND");
+  expect_refused("evaluate", {"--objective.time_per_loop", "-1s"}, "objective.time_per_loop = -1s",
+                 "a time above 0");
 }
 
 TEST_F(BadInput, OfMoreMemoryThanIsAllowed) {

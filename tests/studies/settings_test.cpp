@@ -41,8 +41,8 @@ TEST(Settings, TheDefaultsAreThoseOfTheTypes) {
   EXPECT_EQ(design.reconstruction.unwrapping, expected.reconstruction.unwrapping);
   EXPECT_EQ(telescope_of(configuration).diameter, Telescope().diameter);
   EXPECT_EQ(telescope_of(configuration).wavelength, Telescope().wavelength);
-  EXPECT_EQ(cost_of(configuration).wfe_scale, DesignCost().wfe_scale);
-  EXPECT_EQ(cost_of(configuration).loop_weight, DesignCost().loop_weight);
+  EXPECT_EQ(cost_of(configuration, false).wfe_scale, DesignCost().wfe_scale);
+  EXPECT_EQ(cost_of(configuration, false).loop_weight, DesignCost().loop_weight);
 }
 
 TEST(Settings, EveryMeasureOfTheSeeingGivesTheSameFriedParameter) {
@@ -129,6 +129,47 @@ TEST(Settings, TheSearchSpaceIsThatOfTheSectionSearch) {
       names_of(with(
           {{"search.plane_count", "3"}, {"search.order", "124"}, {"search.relaxation", "0:0.5"}})),
       ElementsAre(ElementsAre("log z_near", "log z_far", "relaxation")));
+}
+
+TEST(Settings, TheObjectiveIsThatOfItsSection) {
+  const DesignCost cost = cost_of(with({{"objective.kind", "error_budget"},
+                                        {"objective.terms", "loops:0.5"},
+                                        {"objective.penalties", "loops>7:2"},
+                                        {"objective.limits", "plane_count<4,loops<9"},
+                                        {"objective.time_per_loop", "20us"},
+                                        {"objective.readout_time_per_pixel", "1e-9"},
+                                        {"objective.wind_speed", "12"},
+                                        {"telescope.wavelength", "1um"}}),
+                                  false);
+  EXPECT_EQ(cost.kind, CostKind::error_budget);
+  EXPECT_EQ(cost.terms.size(), 1u);
+  EXPECT_EQ(cost.penalties.size(), 1u);
+  EXPECT_EQ(cost.limits.size(), 2u);
+  EXPECT_EQ(cost.operation.time_per_loop, 20e-6);
+  EXPECT_EQ(cost.operation.readout_time_per_pixel, 1e-9);
+  EXPECT_EQ(cost.operation.wind_speed, 12.0);
+  EXPECT_EQ(cost.operation.greenwood_frequency, std::nullopt);
+  EXPECT_EQ(cost.operation.wavelength, 1e-6);
+}
+
+TEST(Settings, DesignsOfDifferentPixelsAreComparedByTheirTotalErrorUnlessSaidOtherwise) {
+  EXPECT_EQ(cost_of(Configuration(), false).wfe, WavefrontErrorKind::residual);
+  EXPECT_EQ(cost_of(Configuration(), true).wfe, WavefrontErrorKind::total);
+  for (const bool pixels_vary : {false, true}) {
+    EXPECT_EQ(cost_of(with({{"objective.wfe", "wrapped"}}), pixels_vary).wfe,
+              WavefrontErrorKind::wrapped);
+    EXPECT_EQ(cost_of(with({{"objective.wfe", "residual"}}), pixels_vary).wfe,
+              WavefrontErrorKind::residual);
+  }
+}
+
+TEST(Settings, TheLightIsPerFrameOrPerSecond) {
+  const Detector detector =
+      design_of(with({{"detector.photon_rate", "1e8"}, {"detector.exposure", "2ms"}})).detector;
+  EXPECT_EQ(detector.photon_rate, 1e8);
+  EXPECT_EQ(detector.exposure, 2e-3);
+  EXPECT_EQ(detector.photons_per_frame(), 2e5);
+  EXPECT_EQ(design_of(Configuration()).detector.exposure, 0.0);
 }
 
 TEST(Settings, TheVerificationsScreensMustBeFresh) {
