@@ -20,6 +20,16 @@ std::vector<double> Performance::captured_energy() const {
   return energy;
 }
 
+Performance pooled(std::span<const Performance> performances) {
+  Performance all{{}, performances.size()};
+  for (const Performance& performance : performances) {
+    assert(performance.screens.size() == performances.front().screens.size());
+    assert(performance.conditions == 1);
+    all.screens.insert(all.screens.end(), performance.screens.begin(), performance.screens.end());
+  }
+  return all;
+}
+
 std::span<const PerformanceMetric> performance_metrics() {
   using Screen = const ScreenPerformance&;
   static constexpr double nm = 1e-9;

@@ -3,6 +3,7 @@
 #include "model/statistics.hpp"
 #include "model/wavefront_metrics.hpp"
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -24,12 +25,17 @@ struct ScreenPerformance {
 /// How a design did on a set of wavefronts.
 struct Performance {
   std::vector<ScreenPerformance> screens;
+  /// Under how many conditions: all screens under the first, then all under the second, ...
+  std::size_t conditions = 1;
 
-  /// `metric(screen)` of every screen.
+  /// `metric(screen)` of every screen, its mean over the conditions.
   template <class Metric>
   std::vector<double> samples_of(const Metric& metric) const {
-    std::vector<double> samples;
-    for (const ScreenPerformance& screen : screens) samples.push_back(metric(screen));
+    std::vector<double> samples(screens.size() / conditions, 0.0);
+    for (std::size_t i = 0; i < screens.size(); ++i) {
+      samples[i % samples.size()] += metric(screens[i]);
+    }
+    for (double& sample : samples) sample /= double(conditions);
     return samples;
   }
   /// Mean and standard error over the screens of `metric(screen)`.
@@ -41,6 +47,11 @@ struct Performance {
   double converged_fraction() const;
   std::vector<double> captured_energy() const;  ///< mean over the screens, per plane
 };
+
+/// One design's performances under several conditions as one. Its means are over all screens and
+/// conditions, their standard errors over the screens, which the conditions have in common.
+/// @pre there is one, and all have as many screens
+Performance pooled(std::span<const Performance> performances);
 
 /// A figure of merit as users see it: its name ends with its unit.
 struct PerformanceMetric {

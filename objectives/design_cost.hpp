@@ -2,6 +2,7 @@
 
 #include "model/performance.hpp"
 #include "model/sensor_design.hpp"
+#include "objectives/cost_aggregate.hpp"
 #include "objectives/design_metric.hpp"
 
 #include <vector>
@@ -56,8 +57,9 @@ struct DesignCost {
   std::vector<Penalty> penalties = {};
   std::vector<MetricBound> limits = {};  ///< what a design's mean must not be; costs nothing
   Operation operation = {};
+  CostAggregate aggregate = {};  ///< over conditions
 
-  /// The cost of each screen.
+  /// The cost of each screen under one condition.
   /// @param fried_parameter  of the seeing at the telescope's wavelength, m
   /// @throws InputError naming the key where a metric needs what is not set
   std::vector<double> per_screen(const Performance& performance, const SensorDesign& design,

@@ -10,15 +10,13 @@ namespace {
 /// Screens after which a trial may end for the first time; fewer say little about the spread.
 constexpr int first_block = 4;
 
-SensorDesign under(const Condition& condition, SensorDesign design) {
+}  // namespace
+
+SensorDesign Condition::lit(SensorDesign design) const {
   Detector& detector = design.detector;
-  if (condition.light) {
-    (detector.photon_rate > 0.0 ? detector.photon_rate : detector.photons) = *condition.light;
-  }
+  if (light) (detector.photon_rate > 0.0 ? detector.photon_rate : detector.photons) = *light;
   return design;
 }
-
-}  // namespace
 
 DesignTrial::DesignTrial(std::vector<Condition> conditions, DesignCost cost)
     : conditions_(std::move(conditions)), cost_(std::move(cost)) {
@@ -31,13 +29,14 @@ DesignTrial::DesignTrial(std::vector<Condition> conditions, DesignCost cost)
 TriedDesign DesignTrial::run(const SensorDesign& design,
                              const std::function<bool(std::span<const double>)>& goes_on) const {
   TriedDesign tried{design, std::vector<Performance>(conditions_.size()), {}};
+  const bool may_end = goes_on && cost_.aggregate.kind == AggregateKind::mean;
   int done = 0;
   do {
-    const int next = goes_on ? std::min(std::max(first_block, 2 * done), screen_count())  //
+    const int next = may_end ? std::min(std::max(first_block, 2 * done), screen_count())  //
                              : screen_count();
     for (std::size_t k = 0; k < conditions_.size(); ++k) {
       Performance block =
-          conditions_[k].simulation->evaluate(under(conditions_[k], design), done, next - done);
+          conditions_[k].simulation->evaluate(conditions_[k].lit(design), done, next - done);
       std::ranges::move(block.screens, std::back_inserter(tried.performances[k].screens));
     }
     done = next;
@@ -47,24 +46,22 @@ TriedDesign DesignTrial::run(const SensorDesign& design,
 }
 
 void DesignTrial::set_costs(TriedDesign& tried) const {
-  tried.costs.assign(tried.performances.front().screens.size(), 0.0);
+  std::vector<std::vector<double>> costs;
   tried.violation = 0.0;
   for (std::size_t k = 0; k < conditions_.size(); ++k) {
     const Condition& condition = conditions_[k];
-    const SensorDesign design = under(condition, tried.design);
+    const SensorDesign design = condition.lit(tried.design);
     const Performance& performance = tried.performances[k];
-    const std::vector<double> costs =
-        cost_.per_screen(performance, design, condition.fried_parameter);
-    for (std::size_t i = 0; i < costs.size(); ++i) tried.costs[i] += costs[i];
+    costs.push_back(cost_.per_screen(performance, design, condition.fried_parameter));
     tried.violation =
         std::max(tried.violation, cost_.violation(performance, design, condition.fried_parameter));
   }
-  for (double& cost : tried.costs) cost /= double(conditions_.size());
+  tried.costs = cost_.aggregate.per_screen(costs);
 }
 
 SensorDesign DesignTrial::checked(SensorDesign design) const {
   for (const Condition& condition : conditions_) {
-    (void)condition.simulation->checked(under(condition, design));
+    (void)condition.simulation->checked(condition.lit(design));
   }
   return conditions_.front().simulation->checked(std::move(design));
 }

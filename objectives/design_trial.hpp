@@ -20,14 +20,18 @@ struct Condition {
   std::shared_ptr<const Simulation> simulation;  ///< conditions of one seeing share it
   std::optional<double> light = {};  ///< replaces the design's photons, or photon_rate if used
   double fried_parameter = 0.0;      ///< r0 at the telescope's wavelength, m
+
+  /// The design in the condition's light.
+  SensorDesign lit(SensorDesign design) const;
 };
 
 /// A design with how it did.
 struct TriedDesign {
   SensorDesign design;
   std::vector<Performance> performances;  ///< one per condition
-  std::vector<double> costs;              ///< of each screen; their mean is the design's cost
-  double violation = 0.0;                 ///< of the limits, in the worst condition; 0 = all kept
+  /// Of each screen, aggregated over the conditions; their mean is the design's cost.
+  std::vector<double> costs;
+  double violation = 0.0;  ///< of the limits, in the worst condition; 0 = all kept
 };
 
 /// Tries designs under a list of conditions, and costs them. All conditions have as many screens;
@@ -39,7 +43,8 @@ class DesignTrial {
   DesignTrial(std::vector<Condition> conditions, DesignCost cost);
 
   /// @param goes_on  asked with the costs of the first 4, 8, 16, ... screens: false ends the trial
-  ///                 with these screens alone; a screen's result does not depend on it
+  ///                 with these screens alone; a screen's result does not depend on it. Only asked
+  ///                 where the aggregate is the mean
   /// @throws InputError where a condition's simulation cannot have the design
   TriedDesign run(const SensorDesign& design,
                   const std::function<bool(std::span<const double>)>& goes_on = {}) const;

@@ -311,6 +311,7 @@ void print_reading(const Benchmark& benchmark, double memory) {
 
 void run_benchmark(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
+  require_one_condition(configuration);
   Benchmark benchmark(configuration);
   std::optional<RunRecord> record;
   if (command_line.output) record.emplace(command_line);

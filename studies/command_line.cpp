@@ -28,6 +28,8 @@ std::string value_name(const ConfigurationKey& key) {
   switch (key.kind) {
     case Kind::number:
       return "NUMBER";
+    case Kind::number_list:
+      return "NUMBERS";
     case Kind::integer:
       return "INTEGER";
     case Kind::seed:

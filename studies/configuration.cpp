@@ -114,6 +114,9 @@ std::string ConfigurationKey::allowed() const {
   switch (kind) {
     case Kind::number:
       return fmt::format("a number{}{}{}{}", range, unit.empty() ? "" : " in ", unit, such_as);
+    case Kind::number_list:
+      return fmt::format("a number{}{}{}, or several separated by commas{}", range,
+                         unit.empty() ? "" : " in ", unit, such_as);
     case Kind::integer:
       return fmt::format("a whole number{}", range);
     case Kind::seed:
@@ -162,19 +165,20 @@ bool ConfigurationKey::accepts(std::string_view value) const {
   const auto all_within = [this](const std::vector<double>& values) {
     return std::ranges::all_of(values, [this](double v) { return bounds.contain(v); });
   };
+  const auto list_within = [&](const auto& list) { return list && all_within(*list); };
   switch (kind) {
     case Kind::number:
       return within(parse_number(value));
+    case Kind::number_list:
+      return list_within(parse_numbers(value));
     case Kind::integer:
       return within(parse_integer(value));
     case Kind::seed:
       return parse_seed(value).has_value();
     case Kind::length:
       return within(parse_length(value));
-    case Kind::length_list: {
-      const auto list = parse_lengths(value);
-      return list && all_within(*list);
-    }
+    case Kind::length_list:
+      return list_within(parse_lengths(value));
     case Kind::domain: {
       const auto domain = parse_domain(value, parser_of(*this));
       if (!domain) return false;
@@ -324,6 +328,10 @@ const std::string& Configuration::text_of(std::string_view key, [[maybe_unused]]
 
 double Configuration::number(std::string_view key) const {
   return parse_number(text_of(key, Kind::number)).value();
+}
+
+std::vector<double> Configuration::numbers(std::string_view key) const {
+  return parse_numbers(text_of(key, Kind::number_list)).value();
 }
 
 std::optional<double> Configuration::optional_number(std::string_view key) const {

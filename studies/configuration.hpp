@@ -16,6 +16,7 @@ namespace nlcwfs {
 /// What the text of a key stands for; the parsers are in studies/units.hpp.
 enum class Kind {
   number,
+  number_list,  ///< separated by commas
   integer,
   seed,         ///< 64-bit unsigned
   length,       ///< m
@@ -103,6 +104,7 @@ class Configuration {
   void set(std::string_view key, std::string_view value, std::string_view source);
 
   double number(std::string_view key) const;
+  std::vector<double> numbers(std::string_view key) const;
   /// Nothing where not set.
   std::optional<double> optional_number(std::string_view key) const;
   int integer(std::string_view key) const;

@@ -107,18 +107,21 @@ std::vector<ConfigurationKey> make_keys() {
        .example = "10mm"},
 
       {.name = "seeing.d_over_r0",
-       .kind = Kind::number,
+       .kind = Kind::number_list,
        .default_text = "4",
-       .description = "Pupil diameter over Fried parameter at telescope.wavelength. One measure of "
-                      "the seeing: set this, fried_parameter or fwhm.",
-       .bounds = {.least = 0, .greatest = 1e4, .least_included = false}},
+       .description =
+           "Pupil diameter over Fried parameter at telescope.wavelength. One measure of "
+           "the seeing: set this, fried_parameter or fwhm. With several values, designs are "
+           "tried in each, with each of the lights of the section detector.",
+       .bounds = {.least = 0, .greatest = 1e4, .least_included = false},
+       .example = "4 or 4,8"},
       {.name = "seeing.fried_parameter",
-       .kind = Kind::length,
+       .kind = Kind::length_list,
        .description = "Fried parameter r0 at seeing.reference_wavelength, instead of d_over_r0.",
        .bounds = above(0),
        .example = "12.5cm"},
       {.name = "seeing.fwhm",
-       .kind = Kind::number,
+       .kind = Kind::number_list,
        .description = "Full width at half maximum of the seeing disc at "
                       "seeing.reference_wavelength, instead of d_over_r0; r0 = 0.976 wavelength / "
                       "fwhm.",
@@ -174,14 +177,16 @@ std::vector<ConfigurationKey> make_keys() {
        .unit = "pupil diameters",
        .bounds = from_to(1, 64)},
       {.name = "detector.photons",
-       .kind = Kind::number,
+       .kind = Kind::number_list,
        .default_text = "0",
-       .description = "Light per frame in all planes together; 0 = no photon noise.",
+       .description =
+           "Light per frame in all planes together; 0 = no photon noise. With several values, "
+           "designs are tried with each.",
        .unit = "photons",
        .bounds = at_least(0),
-       .example = "1e5"},
+       .example = "1e5 or 1e4,1e5"},
       {.name = "detector.photon_rate",
-       .kind = Kind::number,
+       .kind = Kind::number_list,
        .default_text = "0",
        .description = "Light per second in all planes together, instead of photons: a frame has "
                       "photon_rate x exposure photons; 0 = not used.",
@@ -351,6 +356,19 @@ std::vector<ConfigurationKey> make_keys() {
        .unit = "m/s",
        .bounds = above(0),
        .example = "10"},
+      {.name = "objective.aggregate",
+       .kind = Kind::choice,
+       .default_text = "mean",
+       .description = "What counts of the costs under several seeings and lights: their mean, the "
+                      "condition with the highest (worst), or of all screens and conditions the "
+                      "quantile at level or the mean cost beyond it (cvar).",
+       .choices = {"mean", "worst", "quantile", "cvar"}},
+      {.name = "objective.level",
+       .kind = Kind::number,
+       .default_text = "0.9",
+       .description = "Level of quantile and cvar.",
+       .bounds =
+           {.least = 0.0, .greatest = 1.0, .least_included = false, .greatest_included = false}},
 
       {.name = "search.layout",
        .kind = Kind::choice,

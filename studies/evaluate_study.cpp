@@ -4,6 +4,7 @@
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
+#include "studies/trial_summary.hpp"
 
 #include <chrono>
 
@@ -31,6 +32,7 @@ std::string screens_table(const Performance& performance) {
 
 void run_evaluate(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
+  require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   std::vector<std::string> notes;
@@ -43,17 +45,14 @@ void run_evaluate(const CommandLine& command_line) {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const Performance& performance = tried.performances.front();
 
-  nlohmann::ordered_json json = to_json(design, telescope, seeing.fried_parameter);
   record.archive().add({.stage = "evaluate",
-                        .design = json.dump(),
+                        .design = to_json(design, telescope, seeing.fried_parameter).dump(),
                         .cost = mean_and_standard_error(tried.costs).mean,
                         .failure = "",
                         .seconds = elapsed.count(),
                         .performance = to_json(performance).dump()});
-  json["cost"] = to_json(mean_and_standard_error(tried.costs));
-  json["performance"] = to_json(performance);
   record.folder().write("screens.csv", screens_table(performance));
-  record.write_summary({{"design", json}});
+  record.write_summary({{"design", to_json(tried, trial)}});
 
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n\n", telescope_line(telescope, seeing));

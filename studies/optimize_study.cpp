@@ -10,6 +10,7 @@
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
+#include "studies/trial_summary.hpp"
 #include "studies/units.hpp"
 
 #include <algorithm>
@@ -103,7 +104,7 @@ class SearchLog {
          .cost = evaluation.cost,
          .failure = evaluation.failure,
          .seconds = evaluation.seconds,
-         .performance = failed ? "" : to_json(tried->performances.front()).dump()});
+         .performance = failed ? "" : to_json(pooled(tried->performances)).dump()});
 
     table_.row()
         .add(evaluation.index)
@@ -113,7 +114,7 @@ class SearchLog {
       if (failed) {
         table_.add("");
       } else {
-        table_.add(tried->performances.front().mean_of(performance_metric(metric)).mean);
+        table_.add(pooled(tried->performances).mean_of(performance_metric(metric)).mean);
       }
     }
     table_.add(evaluation.failure);
@@ -168,15 +169,8 @@ TriedDesign verify_and_archive(const SensorDesign& design, std::string_view name
        .cost = mean_and_standard_error(verified.costs).mean,
        .failure = "",
        .seconds = seconds_since(start),
-       .performance = to_json(verified.performances.front()).dump()});
+       .performance = to_json(pooled(verified.performances)).dump()});
   return verified;
-}
-
-Json design_object(const TriedDesign& verified, const Task& task) {
-  Json json = to_json(verified.design, task.telescope, task.seeing.fried_parameter);
-  json["cost"] = to_json(mean_and_standard_error(verified.costs));
-  json["performance"] = to_json(verified.performances.front());
-  return json;
 }
 
 /// The best designs that differ, with what they cost on the screens of the search.
@@ -240,6 +234,8 @@ std::string verdict_text(const Improvement& improvement, const TriedDesign& base
 void print_result(const Task& task, const SearchResult& result, std::string_view precision,
                   double search_seconds, const TriedDesign& best, const TriedDesign& baseline,
                   const Improvement& gain) {
+  const Performance best_performance = pooled(best.performances);
+  const Performance baseline_performance = pooled(baseline.performances);
   for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
   fmt::print("Tried {} designs on {} screens in {} precision in {}, {}{}.\n\n", result.evaluations,
@@ -249,16 +245,17 @@ void print_result(const Task& task, const SearchResult& result, std::string_view
                  ? fmt::format("; {} of them failed, see search.csv", result.failures)
                  : "");
   fmt::print("Best design, planes in visiting order:\n{}\n",
-             planes_table(best.design, task.telescope, task.seeing, &best.performances.front()));
-  fmt::print("Baseline:\n{}\n", planes_table(baseline.design, task.telescope, task.seeing,
-                                             &baseline.performances.front()));
+             planes_table(best.design, task.telescope, task.seeing, &best_performance));
+  fmt::print("Baseline:\n{}\n",
+             planes_table(baseline.design, task.telescope, task.seeing, &baseline_performance));
   fmt::print("Both on the same {} fresh screens, true field {} samples across the pupil:\n{}",
              task.verification.screen_count(),
              task.verification.conditions().front().simulation->truth_samples(),
-             performance_table({{"best design", &best.performances.front(), best.costs},
-                                {"baseline", &baseline.performances.front(), baseline.costs}}));
+             performance_table({{"best design", &best_performance, best.costs},
+                                {"baseline", &baseline_performance, baseline.costs}}));
+  fmt::print("{}", conditions_table(best, task.verification));
   fmt::print("\n{}\n{}", verdict_text(gain, baseline),
-             captured_energy_warnings(best.design, best.performances.front()));
+             captured_energy_warnings(best.design, best_performance));
 }
 
 }  // namespace
@@ -287,15 +284,16 @@ void run_optimize(const CommandLine& command_line) {
   record.folder().write("best.cfg", best_configuration.dump());
   record.folder().write("search.csv", log.table());
   record.write_summary(
-      {{"best", design_object(best, task)},
-       {"baseline", design_object(baseline, task)},
+      {{"best", to_json(best, task.verification)},
+       {"baseline", to_json(baseline, task.verification)},
        {"improvement", {{"cost", gain.cost.mean}, {"standard_error", gain.cost.standard_error}}},
        {"leaders_of_search", leaders_array(result, task)},
        {"evaluations", result.evaluations},
        {"cache_hits", result.cache_hits},
        {"failures", result.failures},
-       {"reconstructions", (result.evaluations - result.failures) * task.trial.screen_count() +
-                               2 * task.verification.screen_count()},
+       {"reconstructions", ((result.evaluations - result.failures) * task.trial.screen_count() +
+                            2 * task.verification.screen_count()) *
+                               static_cast<int>(task.trial.conditions().size())},
        {"wall_seconds", seconds_since(start)},
        {"search_seconds", search_seconds},
        {"termination", to_string(result.termination)},

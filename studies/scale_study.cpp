@@ -40,6 +40,7 @@ bool is_varied_length(const ConfigurationKey& key) {
 
 void run_scale(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
+  require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   const SensorDesign design = design_of(configuration);
@@ -71,7 +72,7 @@ void run_scale(const CommandLine& command_line) {
   // Every distance, so that the file also searches at the new telescope.
   const auto moved = [&](double distance) { return scaled_distance(distance, telescope, target); };
   for (const ConfigurationKey& key : configuration_keys()) {
-    if (key.kind == Kind::length_list) {
+    if (key.name.ends_with(".planes")) {
       std::vector<double> planes = configuration.lengths(key.name);
       std::ranges::transform(planes, planes.begin(), moved);
       set(key.name, fmt::format("{}", fmt::join(planes, ",")));

@@ -51,6 +51,7 @@ void remove_piston(PhaseScreen& screen, const PupilMask& mask) {
 
 void run_screens(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
+  require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   std::vector<std::string> notes;

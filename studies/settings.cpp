@@ -63,27 +63,24 @@ bool is_matched(const Configuration& configuration) {
 /// Refuses more screens than memory is allowed for, before they are made.
 /// @param key, value  what asks for so many
 template <class Value>
-void require_memory(std::string_view key, const Value& value, int count, int samples) {
+void require_memory(std::string_view key, const Value& value, double count, int samples) {
   const double bytes_per_screen = double(samples) * samples * sizeof(double);
   if (count * bytes_per_screen <= max_image_memory) return;
   throw InputError(
       key, value,
-      fmt::format("{} screens of {} x {} samples take {:.3g} GiB of memory; at most {:.0f} of them "
-                  "fit into the {:g} GiB allowed",
-                  count, samples, samples, count * bytes_per_screen / std::exp2(30),
-                  std::floor(max_image_memory / bytes_per_screen),
-                  max_image_memory / std::exp2(30)));
+      fmt::format(
+          "{:.0f} screens of {} x {} samples take {:.3g} GiB of memory; at most {:.0f} of them "
+          "fit into the {:g} GiB allowed",
+          count, samples, samples, count * bytes_per_screen / std::exp2(30),
+          std::floor(max_image_memory / bytes_per_screen), max_image_memory / std::exp2(30)));
 }
 
 std::vector<PhaseScreen> simulated_screens(const Configuration& configuration,
-                                           const Telescope& telescope, int samples, int count,
-                                           std::string_view count_key, std::string_view seed_key,
-                                           int most = std::numeric_limits<int>::max()) {
-  require_memory(count_key, count, count, samples);
+                                           const Telescope& telescope, const Seeing& seeing,
+                                           int samples, int count, std::string_view seed_key) {
   return generate_screens(
-      TurbulenceScreenGenerator(seeing_of(configuration, telescope), samples, telescope.diameter,
-                                configuration.seed(seed_key)),
-      std::min(count, most));
+      TurbulenceScreenGenerator(seeing, samples, telescope.diameter, configuration.seed(seed_key)),
+      count);
 }
 
 /// By default four times the search's, so that the verification adds little noise of its own.
@@ -91,14 +88,6 @@ int verification_screens(const Configuration& configuration) {
   return configuration.is_set("verify.screens")
              ? configuration.integer("verify.screens")
              : std::max(64, 4 * configuration.integer("screens.count"));
-}
-
-Condition condition_of(const Configuration& configuration, const Telescope& telescope,
-                       std::vector<PhaseScreen> screens, const SimulationOptions& options) {
-  const double fried_parameter = seeing_of(configuration, telescope).fried_parameter;
-  return {.name = fmt::format("D/r0 = {:.4g}", telescope.diameter / fried_parameter),
-          .simulation = std::make_shared<const Simulation>(telescope, std::move(screens), options),
-          .fried_parameter = fried_parameter};
 }
 
 std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
@@ -113,7 +102,7 @@ std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telesc
   }
   const auto size = static_cast<int>(cube.slices.front().rows());
   if (size < 2) throw InputError("screens.file", file, "at least 2 x 2 samples");
-  require_memory("screens.file", file, static_cast<int>(cube.slices.size()), samples);
+  require_memory("screens.file", file, double(cube.slices.size()), samples);
   if (size != samples) {
     notes.push_back(fmt::format("{}: {} x {} samples were resampled to the truth's {} x {}", file,
                                 size, size, samples, samples));
@@ -123,6 +112,78 @@ std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telesc
     if (size != samples) screen = resampled_screen(screen, samples);
   }
   return std::move(cube.slices);
+}
+
+/// The wavefronts of the section screens in a seeing.
+std::vector<PhaseScreen> screens_in(const Configuration& configuration, const Telescope& telescope,
+                                    const Seeing& seeing, std::vector<std::string>& notes,
+                                    int most = std::numeric_limits<int>::max()) {
+  const int samples = truth_samples(configuration);
+  const std::size_t seeings = seeings_of(configuration, telescope).size();
+  if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
+    if (seeings > 1) {
+      throw InputError("screens.file", file,
+                       "its screens have one seeing; give one value of the section seeing");
+    }
+    return screens_from_file(file, telescope, samples, notes);
+  }
+  const int count = configuration.integer("screens.count");
+  require_memory("screens.count", count, double(seeings) * count, samples);
+  return simulated_screens(configuration, telescope, seeing, samples, std::min(count, most),
+                           "screens.seed");
+}
+
+/// What replaces the design's light; nothing where there is one light alone.
+std::vector<std::optional<double>> lights_of(const Configuration& configuration) {
+  const std::vector<double> photons = configuration.numbers("detector.photons");
+  const std::vector<double> rates = configuration.numbers("detector.photon_rate");
+  if (photons.size() == 1 && rates.size() == 1) return {std::nullopt};
+  if (photons.size() > 1 && configuration.value_text("detector.photon_rate") != "0") {
+    throw InputError("detector.photon_rate", configuration.value_text("detector.photon_rate"),
+                     fmt::format("set only one of it and detector.photons, which is {}",
+                                 configuration.value_text("detector.photons")));
+  }
+  if (std::ranges::count(rates, 0.0) > 0 && rates.size() > 1) {
+    throw InputError("detector.photon_rate", configuration.value_text("detector.photon_rate"),
+                     "several lights must all be above 0");
+  }
+  const std::vector<double>& lights = photons.size() > 1 ? photons : rates;
+  return {lights.begin(), lights.end()};
+}
+
+/// "D/r0 = 4, 100000 photons"
+std::string condition_name(const Telescope& telescope, const Seeing& seeing,
+                           const Detector& detector) {
+  std::string name = fmt::format("D/r0 = {:.4g}", telescope.diameter / seeing.fried_parameter);
+  if (detector.photon_rate > 0.0) {
+    name += fmt::format(", {:g} photons/s", detector.photon_rate);
+  } else if (detector.photons > 0.0) {
+    name += fmt::format(", {:g} photons", detector.photons);
+  }
+  return name;
+}
+
+/// Each seeing, with each light.
+/// @param screens_in  makes the screens of a seeing
+template <class ScreensIn>
+std::vector<Condition> conditions_of(const Configuration& configuration, const Telescope& telescope,
+                                     const SimulationOptions& options,
+                                     const ScreensIn& screens_in) {
+  std::vector<Condition> conditions;
+  for (const Seeing& seeing : seeings_of(configuration, telescope)) {
+    const auto simulation =
+        std::make_shared<const Simulation>(telescope, screens_in(seeing), options);
+    for (const std::optional<double> light : lights_of(configuration)) {
+      Condition condition{.name = {},
+                          .simulation = simulation,
+                          .light = light,
+                          .fried_parameter = seeing.fried_parameter};
+      condition.name =
+          condition_name(telescope, seeing, condition.lit(design_of(configuration)).detector);
+      conditions.push_back(std::move(condition));
+    }
+  }
+  return conditions;
 }
 
 }  // namespace
@@ -155,23 +216,48 @@ void scale_default_planes(Configuration& configuration) {
   }
 }
 
-Seeing seeing_of(const Configuration& configuration, const Telescope& telescope) {
-  Seeing seeing{.fried_parameter = 0.0,
-                .outer_scale = configuration.optional_length("seeing.outer_scale")};
+void require_one_condition(const Configuration& configuration) {
+  for (const char* key : {"seeing.d_over_r0", "seeing.fried_parameter", "seeing.fwhm",
+                          "detector.photons", "detector.photon_rate"}) {
+    const std::string& text = configuration.value_text(key);
+    if (text.find(',') == std::string::npos) continue;
+    throw InputError(key, text,
+                     "one value for this command; several are for those that compare designs");
+  }
+}
+
+std::vector<Seeing> seeings_of(const Configuration& configuration, const Telescope& telescope) {
+  std::vector<double> fried_parameters;
   if (configuration.is_set("seeing.d_over_r0")) {
-    seeing.fried_parameter = telescope.diameter / configuration.number("seeing.d_over_r0");
+    for (const double ratio : configuration.numbers("seeing.d_over_r0")) {
+      fried_parameters.push_back(telescope.diameter / ratio);
+    }
   } else {
     const double reference =
         configuration.optional_length("seeing.reference_wavelength").value_or(telescope.wavelength);
-    const double fried_parameter =
-        configuration.is_set("seeing.fwhm")
-            ? fried_parameter_of_fwhm(configuration.number("seeing.fwhm"), reference)
-            : configuration.length("seeing.fried_parameter");
-    seeing.fried_parameter =
-        scaled_fried_parameter(fried_parameter, reference, telescope.wavelength);
+    const auto add = [&](double fried_parameter) {
+      fried_parameters.push_back(
+          scaled_fried_parameter(fried_parameter, reference, telescope.wavelength));
+    };
+    if (configuration.is_set("seeing.fwhm")) {
+      for (const double fwhm : configuration.numbers("seeing.fwhm")) {
+        add(fried_parameter_of_fwhm(fwhm, reference));
+      }
+    } else {
+      std::ranges::for_each(configuration.lengths("seeing.fried_parameter"), add);
+    }
   }
-  seeing.validate();
-  return seeing;
+  std::vector<Seeing> seeings;
+  for (const double fried_parameter : fried_parameters) {
+    seeings.push_back({.fried_parameter = fried_parameter,
+                       .outer_scale = configuration.optional_length("seeing.outer_scale")});
+    seeings.back().validate();
+  }
+  return seeings;
+}
+
+Seeing seeing_of(const Configuration& configuration, const Telescope& telescope) {
+  return seeings_of(configuration, telescope).front();
 }
 
 SensorDesign design_of(const Configuration& configuration) {
@@ -179,9 +265,9 @@ SensorDesign design_of(const Configuration& configuration) {
   return {.planes = configuration.lengths("sensor.planes"),
           .detector = {.pupil_pixels = configuration.integer("detector.pupil_pixels"),
                        .window = configuration.number("detector.window"),
-                       .photons = configuration.number("detector.photons"),
+                       .photons = configuration.numbers("detector.photons").front(),
                        .read_noise = configuration.number("detector.read_noise"),
-                       .photon_rate = configuration.number("detector.photon_rate"),
+                       .photon_rate = configuration.numbers("detector.photon_rate").front(),
                        .exposure = configuration.optional_time("detector.exposure").value_or(0.0)},
           .reconstruction = {
               .max_loops = configuration.integer("reconstruction.max_loops"),
@@ -227,14 +313,20 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
       .penalties =
           parse_penalties("objective.penalties", configuration.text("objective.penalties")),
       .limits = parse_limits("objective.limits", configuration.text("objective.limits")),
-      .operation = {
-          .wavelength = configuration.length("telescope.wavelength"),
-          .fft_rate = configuration.number("objective.fft_rate"),
-          .time_per_loop = configuration.optional_time("objective.time_per_loop"),
-          .readout_time_per_pixel =
-              *configuration.optional_time("objective.readout_time_per_pixel"),
-          .greenwood_frequency = configuration.optional_number("objective.greenwood_frequency"),
-          .wind_speed = configuration.optional_number("objective.wind_speed")}};
+      .operation = {.wavelength = configuration.length("telescope.wavelength"),
+                    .fft_rate = configuration.number("objective.fft_rate"),
+                    .time_per_loop = configuration.optional_time("objective.time_per_loop"),
+                    .readout_time_per_pixel =
+                        *configuration.optional_time("objective.readout_time_per_pixel"),
+                    .greenwood_frequency =
+                        configuration.optional_number("objective.greenwood_frequency"),
+                    .wind_speed = configuration.optional_number("objective.wind_speed")},
+      .aggregate = {.kind = choice_of<AggregateKind>(configuration, "objective.aggregate",
+                                                     {{"mean", AggregateKind::mean},
+                                                      {"worst", AggregateKind::worst},
+                                                      {"quantile", AggregateKind::quantile},
+                                                      {"cvar", AggregateKind::cvar}}),
+                    .level = configuration.number("objective.level")}};
   if (configuration.is_set("objective.wfe")) {
     cost.wfe = choice_of<WavefrontErrorKind>(configuration, "objective.wfe",
                                              {{"residual", WavefrontErrorKind::residual},
@@ -289,13 +381,7 @@ SimulationOptions simulation_options_of(const Configuration& configuration,
 std::vector<PhaseScreen> screens_of(const Configuration& configuration,
                                     std::vector<std::string>& notes, int most) {
   const Telescope telescope = telescope_of(configuration);
-  const int samples = truth_samples(configuration);
-  if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
-    return screens_from_file(file, telescope, samples, notes);
-  }
-  return simulated_screens(configuration, telescope, samples,
-                           configuration.integer("screens.count"), "screens.count", "screens.seed",
-                           most);
+  return screens_in(configuration, telescope, seeing_of(configuration, telescope), notes, most);
 }
 
 DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
@@ -303,10 +389,14 @@ DesignTrial trial_of(const Configuration& configuration, std::string_view precis
   const Telescope telescope = telescope_of(configuration);
   const SimulationOptions options = simulation_options_of(configuration, precision_key);
   // Before the screens, which may take long.
+  DesignCost cost = cost_of(configuration, pixels_vary);
   simulated_design(design_of(configuration), telescope, options.truth,
                    truth_samples(configuration));
-  return {{condition_of(configuration, telescope, screens_of(configuration, notes), options)},
-          cost_of(configuration, pixels_vary)};
+  return {conditions_of(configuration, telescope, options,
+                        [&](const Seeing& seeing) {
+                          return screens_in(configuration, telescope, seeing, notes);
+                        }),
+          std::move(cost)};
 }
 
 DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary) {
@@ -331,11 +421,15 @@ DesignTrial verification_trial_of(const Configuration& configuration, bool pixel
                     "at most {} are allowed",
                     std::floor(max_grid_width / search_width), search_width, max_grid_width));
   }
-  return {{condition_of(configuration, telescope,
-                        simulated_screens(
-                            configuration, telescope, truth_samples(configuration) * factor,
-                            verification_screens(configuration), "verify.screens", "verify.seed"),
-                        options)},
+  const int samples = truth_samples(configuration) * factor;
+  const int count = verification_screens(configuration);
+  const auto seeings = double(seeings_of(configuration, telescope).size());
+  require_memory("verify.screens", count, seeings * count, samples);
+  return {conditions_of(configuration, telescope, options,
+                        [&](const Seeing& seeing) {
+                          return simulated_screens(configuration, telescope, seeing, samples, count,
+                                                   "verify.seed");
+                        }),
           cost_of(configuration, pixels_vary)};
 }
 

@@ -24,10 +24,16 @@ Telescope telescope_of(const Configuration& configuration);
 /// telescope, moved to the configured telescope at constant Fresnel numbers.
 void scale_default_planes(Configuration& configuration);
 
-/// With the Fried parameter brought to the telescope's wavelength.
+/// Refuses several seeings or lights, for commands that simulate one condition.
+void require_one_condition(const Configuration& configuration);
+
+/// With the Fried parameters brought to the telescope's wavelength.
+std::vector<Seeing> seeings_of(const Configuration& configuration, const Telescope& telescope);
+
+/// The first of them.
 Seeing seeing_of(const Configuration& configuration, const Telescope& telescope);
 
-/// The design of the sections sensor, detector and reconstruction.
+/// The design of the sections sensor, detector and reconstruction, in the first light.
 SensorDesign design_of(const Configuration& configuration);
 
 /// The same with the planes, relaxation and first estimate of the section baseline.
@@ -51,15 +57,16 @@ int truth_samples(const Configuration& configuration);
 SimulationOptions simulation_options_of(const Configuration& configuration,
                                         std::string_view precision_key);
 
-/// The wavefronts of the section screens, simulated or from a file, at the truth's samples.
+/// The wavefronts of the section screens in the first seeing, simulated or from a file, at the
+/// truth's samples.
 /// @param notes  gets a line where screens had to be resampled
 /// @param most   no more than the first so many are simulated; a file's are read all the same
 std::vector<PhaseScreen> screens_of(const Configuration& configuration,
                                     std::vector<std::string>& notes,
                                     int most = std::numeric_limits<int>::max());
 
-/// What designs are tried under: the simulations of the sections screens and simulation; precision
-/// and notes as above.
+/// What designs are tried under: the simulations of the sections screens and simulation in each
+/// seeing, with each light; precision and notes as above.
 /// @param pixels_vary  see cost_of
 DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
                      std::vector<std::string>& notes, bool pixels_vary = false);

@@ -118,6 +118,10 @@ std::optional<double> parse_length(std::string_view text) {
 
 std::optional<double> parse_time(std::string_view text) { return parse_quantity(text, time_units); }
 
+std::optional<std::vector<double>> parse_numbers(std::string_view text) {
+  return parse_list(text, parse_number);
+}
+
 std::optional<std::vector<double>> parse_lengths(std::string_view text) {
   return parse_list(text, parse_length);
 }

@@ -24,6 +24,9 @@ std::optional<int> parse_integer(std::string_view text);
 /// A seed: a whole number from 0 to 2^64 - 1.
 std::optional<std::uint64_t> parse_seed(std::string_view text);
 
+/// Numbers, separated by commas: 4,8. At least one, none empty.
+std::optional<std::vector<double>> parse_numbers(std::string_view text);
+
 /// A length in m: 0.5, 532nm, 47km. Units nm, um, mm, cm, m and km; a bare number is in m.
 std::optional<double> parse_length(std::string_view text);
 

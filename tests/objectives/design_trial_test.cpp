@@ -147,6 +147,24 @@ TEST_F(DesignTrialTest, BreaksALimitByAsMuchAsInItsWorstCondition) {
   EXPECT_EQ(violation({bad, good}), violation({bad}));
 }
 
+TEST_F(DesignTrialTest, AggregatesTheConditionsCosts) {
+  const std::vector<Condition> conditions{tiny_condition(telescope_, 4.0, 6),
+                                          tiny_condition(telescope_, 8.0, 6)};
+  std::vector<std::vector<double>> alone;
+  for (const Condition& condition : conditions) {
+    alone.push_back(DesignTrial({condition}, {}).run(design_).costs);
+  }
+  for (const AggregateKind kind :
+       {AggregateKind::mean, AggregateKind::worst, AggregateKind::quantile, AggregateKind::cvar}) {
+    const CostAggregate aggregate{kind, 0.8};
+    const DesignTrial both(conditions, {.aggregate = aggregate});
+    EXPECT_EQ(both.run(design_).costs, aggregate.per_screen(alone));
+    int asked = 0;
+    (void)both.run(design_, [&](std::span<const double>) { return ++asked > 0; });
+    EXPECT_EQ(asked, kind == AggregateKind::mean ? 1 : 0) << "of six screens, after four";
+  }
+}
+
 TEST_F(DesignTrialTest, ChecksADesignUnderEveryCondition) {
   const DesignTrial two = trial(2);
   EXPECT_EQ(two.checked(design_).planes, design_.planes);

@@ -192,6 +192,21 @@ TEST_F(BadInput, OfTheObjective) {
                  "a time above 0");
 }
 
+TEST_F(BadInput, OfSeveralConditionsWhereOneIsNeeded) {
+  for (const char* command : {"evaluate", "scale", "screens", "benchmark"}) {
+    expect_refused(command, {"--seeing.d_over_r0", "4,8"}, "seeing.d_over_r0 = 4,8",
+                   "one value for this command");
+    expect_refused(command, {"--detector.photons", "1e4,1e5"}, "detector.photons = 1e4,1e5",
+                   "one value for this command");
+  }
+  expect_refused("evaluate", {"--seeing.fried_parameter", "10cm,12cm"},
+                 "seeing.fried_parameter = 10cm,12cm", "one value for this command");
+  expect_refused("optimize", {"--screens.file", "any.fits", "--seeing.d_over_r0", "4,8"},
+                 "screens.file = any.fits", "its screens have one seeing");
+  expect_refused("optimize", {"--objective.level", "1"}, "objective.level = 1",
+                 "above 0 and below 1");
+}
+
 TEST_F(BadInput, OfMoreMemoryThanIsAllowed) {
   expect_refused("screens", {"--screens.count", "1000000", "--simulation.pupil_samples", "64"},
                  "screens.count = 1000000",

@@ -96,7 +96,7 @@ TEST(Configuration, StartsFromTheDefaultsInSi) {
   EXPECT_EQ(configuration.length("telescope.diameter"), 0.5);
   EXPECT_EQ(configuration.length("telescope.wavelength"), 532e-9);
   EXPECT_EQ(configuration.optional_length("telescope.relay_beam_diameter"), std::nullopt);
-  EXPECT_EQ(configuration.number("seeing.d_over_r0"), 4.0);
+  EXPECT_EQ(configuration.numbers("seeing.d_over_r0"), std::vector{4.0});
   EXPECT_EQ(configuration.integer("screens.count"), 16);
   EXPECT_EQ(configuration.seed("verify.seed"), 1000003u);
   EXPECT_THAT(configuration.lengths("sensor.planes"), ElementsAre(-180e3, 180e3, -47e3, 47e3));
@@ -136,8 +136,10 @@ TEST(Configuration, SaysWhatIsAllowedInOneLine) {
       "the command line)");
   EXPECT_EQ(set_message("reconstruction.stopping", "never"),
             "reconstruction.stopping = never: one of difference, rms_change (on the command line)");
-  EXPECT_EQ(set_message("seeing.fwhm", "0.8m"),
-            "seeing.fwhm = 0.8m: a number above 0 in arcsec, such as 0.8 (on the command line)");
+  EXPECT_EQ(
+      set_message("seeing.fwhm", "0.8m"),
+      "seeing.fwhm = 0.8m: a number above 0 in arcsec, or several separated by commas, such as "
+      "0.8 (on the command line)");
   EXPECT_EQ(set_message("screens.count", "1e2"),
             "screens.count = 1e2: a whole number from 1 to 1000000 (on the command line)");
   EXPECT_EQ(
@@ -164,6 +166,9 @@ TEST(Configuration, RefusesWhatLiesOutsideTheBounds) {
       {"telescope.central_obscuration", "-0.1"},
       {"seeing.d_over_r0", "0"},
       {"seeing.d_over_r0", "inf"},
+      {"seeing.d_over_r0", "4,0"},
+      {"seeing.d_over_r0", "4,"},
+      {"seeing.fried_parameter", "10cm,-1cm"},
       {"screens.count", "0"},
       {"screens.count", "99999999999"},
       {"screens.seed", "-1"},
@@ -222,7 +227,7 @@ TEST(Configuration, PaperPresetIsThePapersSetUp) {
   EXPECT_EQ(configuration.source("sensor.planes"), "by --preset paper");
   EXPECT_EQ(configuration.length("telescope.diameter"), 0.5);
   EXPECT_EQ(configuration.length("telescope.wavelength"), 532e-9);
-  EXPECT_EQ(configuration.number("seeing.d_over_r0"), 4.0);
+  EXPECT_EQ(configuration.numbers("seeing.d_over_r0"), std::vector{4.0});
   EXPECT_EQ(configuration.integer("detector.pupil_pixels"), 64);
   EXPECT_EQ(configuration.integer("screens.count"), 16);
   EXPECT_EQ(configuration.length("reconstruction.tolerance"), 1e-9);
@@ -236,7 +241,7 @@ TEST(Configuration, AnUnknownPresetIsAnsweredWithTheKnownOnes) {
 
 TEST(Configuration, OneMeasureOfTheSeeingReplacesTheDefault) {
   const Configuration configuration = read("[seeing]\nfwhm = 0.8\n");
-  EXPECT_EQ(configuration.number("seeing.fwhm"), 0.8);
+  EXPECT_EQ(configuration.numbers("seeing.fwhm"), std::vector{0.8});
   EXPECT_FALSE(configuration.is_set("seeing.d_over_r0"));
   EXPECT_THAT(configuration.dump(), HasSubstr("\n# d_over_r0 =\n"));
   EXPECT_THAT(Configuration().dump(), HasSubstr("\nd_over_r0 = 4\n"));
@@ -256,14 +261,14 @@ TEST(Configuration, TwoMeasuresOfTheSeeingAreRefusedAndBothNamed) {
 TEST(Configuration, ALaterLayersMeasureOfTheSeeingReplacesAnEarlierOnes) {
   Configuration configuration = read("[seeing]\nd_over_r0 = 6\n");
   configuration.set("seeing.fwhm", "0.8", here);
-  EXPECT_EQ(configuration.number("seeing.fwhm"), 0.8);
+  EXPECT_EQ(configuration.numbers("seeing.fwhm"), std::vector{0.8});
   EXPECT_FALSE(configuration.is_set("seeing.d_over_r0"));
 }
 
 TEST(Configuration, TheSameMeasureOfTheSeeingMayBeSetAgain) {
   Configuration configuration = read("[seeing]\nfwhm = 0.8\n");
   configuration.set("seeing.fwhm", "1.2", here);
-  EXPECT_EQ(configuration.number("seeing.fwhm"), 1.2);
+  EXPECT_EQ(configuration.numbers("seeing.fwhm"), std::vector{1.2});
 }
 
 TEST(Configuration, ReadsSectionsDottedNamesCommentsAndForeignLineEnds) {

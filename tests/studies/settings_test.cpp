@@ -172,6 +172,95 @@ TEST(Settings, TheLightIsPerFrameOrPerSecond) {
   EXPECT_EQ(design_of(Configuration()).detector.exposure, 0.0);
 }
 
+/// On few samples, quick to make.
+DesignTrial quick_trial(std::initializer_list<std::pair<const char*, const char*>> values) {
+  Configuration configuration = with(values);
+  for (const auto& [key, value] : {std::pair{"detector.pupil_pixels", "16"},
+                                   {"simulation.pupil_samples", "16"},
+                                   {"screens.count", "3"}}) {
+    configuration.set(key, value, "by the test");
+  }
+  std::vector<std::string> notes;
+  return trial_of(configuration, "simulation.precision", notes);
+}
+
+TEST(Settings, TrialsAreUnderEachSeeingWithEachLight) {
+  const DesignTrial trial =
+      quick_trial({{"seeing.fried_parameter", "12.5cm,6.25cm"}, {"detector.photons", "0,1e5"}});
+  std::vector<std::string> names;
+  for (const Condition& condition : trial.conditions()) names.push_back(condition.name);
+  EXPECT_THAT(names, ElementsAre("D/r0 = 4", "D/r0 = 4, 100000 photons", "D/r0 = 8",
+                                 "D/r0 = 8, 100000 photons"));
+  const std::vector<Condition>& conditions = trial.conditions();
+  EXPECT_DOUBLE_EQ(conditions[0].fried_parameter, 0.125);
+  EXPECT_DOUBLE_EQ(conditions[3].fried_parameter, 0.0625);
+  EXPECT_EQ(conditions[2].light, 0.0);
+  EXPECT_EQ(conditions[3].light, 1e5);
+  EXPECT_EQ(conditions[0].simulation, conditions[1].simulation);
+  EXPECT_NE(conditions[1].simulation, conditions[2].simulation);
+  EXPECT_EQ(trial.screen_count(), 3);
+}
+
+TEST(Settings, OneSeeingAndOneLightAreOneConditionOfTheDesignsOwn) {
+  const DesignTrial trial = quick_trial({{"detector.photons", "1e5"}});
+  ASSERT_EQ(trial.conditions().size(), 1u);
+  EXPECT_EQ(trial.conditions().front().light, std::nullopt);
+  EXPECT_EQ(trial.conditions().front().name, "D/r0 = 4, 100000 photons");
+}
+
+TEST(Settings, LightsMayBePerSecond) {
+  const DesignTrial trial =
+      quick_trial({{"detector.photon_rate", "1e8,1e6"}, {"detector.exposure", "1ms"}});
+  ASSERT_EQ(trial.conditions().size(), 2u);
+  EXPECT_EQ(trial.conditions()[1].name, "D/r0 = 4, 1e+06 photons/s");
+  EXPECT_EQ(
+      trial.conditions()[1]
+          .lit(design_of(with({{"detector.photon_rate", "1e8,1e6"}, {"detector.exposure", "1ms"}})))
+          .detector.photons_per_frame(),
+      1e3);
+}
+
+TEST(Settings, SeveralLightsMustFitTogether) {
+  const auto message = [](std::initializer_list<std::pair<const char*, const char*>> values) {
+    return message_of([&] { (void)quick_trial(values); });
+  };
+  EXPECT_EQ(message({{"detector.photons", "0,1e5"},
+                     {"detector.photon_rate", "1e8"},
+                     {"detector.exposure", "1ms"}}),
+            "detector.photon_rate = 1e8: set only one of it and detector.photons, which is 0,1e5");
+  EXPECT_EQ(message({{"detector.photon_rate", "1e8,0"}, {"detector.exposure", "1ms"}}),
+            "detector.photon_rate = 1e8,0: several lights must all be above 0");
+}
+
+TEST(Settings, SeveralSeeingsHaveEachTheirValue) {
+  const auto fried_parameters = [](const char* key, const char* values) {
+    const Configuration configuration = with({{key, values}});
+    std::vector<double> found;
+    for (const Seeing& seeing : seeings_of(configuration, telescope_of(configuration))) {
+      found.push_back(seeing.fried_parameter);
+    }
+    return found;
+  };
+  EXPECT_THAT(fried_parameters("seeing.d_over_r0", "4,8"), ElementsAre(0.125, 0.0625));
+  EXPECT_THAT(fried_parameters("seeing.fried_parameter", "10cm,0.2"),
+              ElementsAre(DoubleNear(0.1, 1e-12), DoubleNear(0.2, 1e-12)));
+  EXPECT_THAT(fried_parameters("seeing.fwhm", "0.8568,1.7136"),
+              ElementsAre(DoubleNear(0.125, 1e-5), DoubleNear(0.0625, 1e-5)));
+}
+
+TEST(Settings, TheAggregateIsThatOfTheObjective) {
+  const auto aggregate = [](const char* kind) {
+    return cost_of(with({{"objective.aggregate", kind}, {"objective.level", "0.75"}}), false)
+        .aggregate;
+  };
+  EXPECT_EQ(aggregate("mean").kind, AggregateKind::mean);
+  EXPECT_EQ(aggregate("worst").kind, AggregateKind::worst);
+  EXPECT_EQ(aggregate("quantile").kind, AggregateKind::quantile);
+  EXPECT_EQ(aggregate("cvar").kind, AggregateKind::cvar);
+  EXPECT_EQ(aggregate("cvar").level, 0.75);
+  EXPECT_EQ(cost_of(Configuration(), false).aggregate.level, CostAggregate().level);
+}
+
 TEST(Settings, TheVerificationsScreensMustBeFresh) {
   EXPECT_THAT(message_of([] {
                 verification_trial_of(with({{"verify.seed", "7"}, {"screens.seed", "7"}}));

@@ -321,6 +321,53 @@ TEST_F(Studies, ScreensOfAnotherSamplingAreResampledWithANote) {
               Not(HasSubstr("note:")));
 }
 
+TEST_F(Studies, ADesignIsFoundForSeveralConditions) {
+  const ProgramRun finished =
+      done("optimize", "run",
+           {"--seeing.d_over_r0", "3,6", "--detector.photons", "1e5,1e6", "--objective.aggregate",
+            "worst", "--objective.limits", "total_wfe_nm<1", "--verify.screens", "4"});
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("\n  under each condition "),
+                                     HasSubstr("\n  D/r0 = 6, 1e+06 photons ")));
+  const Json json = summary("run");
+  EXPECT_EQ(json["reconstructions"], (6 * 2 + 2 * 4) * 4);
+  for (const char* name : {"best", "baseline"}) {
+    const Json& design = json[name];
+    const Json& conditions = design.at("conditions");
+    ASSERT_EQ(conditions.size(), 4u);
+    EXPECT_EQ(conditions[1]["photons"], 1e6);
+    EXPECT_NEAR(conditions[2]["d_over_r0"], 6.0, 1e-12);
+    EXPECT_GT(design["violation"], 1.0);
+    EXPECT_EQ(design["performance"]["screens"], 16);
+    double mean = 0.0;
+    for (const Json& condition : conditions) {
+      EXPECT_EQ(condition["performance"]["screens"], 4);
+      mean += double(condition["performance"]["residual_wfe_nm"]["mean"]) / 4.0;
+    }
+    EXPECT_NEAR(design["performance"]["residual_wfe_nm"]["mean"], mean, 1e-9 * mean);
+    // Of residual WFE / 10 nm + 0.1 x loops under the worst condition.
+    double worst = 0.0;
+    for (const Json& condition : conditions) {
+      const Json& performance = condition["performance"];
+      worst = std::max(worst, double(performance["residual_wfe_nm"]["mean"]) / 10.0 +
+                                  0.1 * double(performance["fractional_loops"]["mean"]));
+    }
+    EXPECT_NEAR(design["cost"]["mean"], worst, 1e-9 * worst);
+  }
+}
+
+TEST_F(Studies, TheObjectiveMayBeTheErrorBudget) {
+  done("evaluate", "run",
+       {"--objective.kind", "error_budget", "--objective.wind_speed", "10",
+        "--objective.time_per_loop", "1us", "--detector.exposure", "1us"});
+  const Json design = summary("run")["design"];
+  // In microseconds the turbulence hardly changes.
+  const double total = design["performance"]["total_wfe_nm"]["mean"];
+  EXPECT_GT(design["cost"]["mean"], total);
+  EXPECT_NEAR(double(design["cost"]["mean"]) / total, 1.0, 1e-3);
+  EXPECT_FALSE(design.contains("conditions"));
+  EXPECT_EQ(design["violation"], 0.0);
+}
+
 TEST_F(Studies, AScaledDesignDoesTheSameInWaves) {
   done("evaluate", "here");
   done("scale", "scaled", {"--scale.diameter", "8.2m", "--scale.wavelength", "1.064um"});
@@ -363,7 +410,7 @@ TEST_F(Studies, ScalingThereAndBackIsNoChange) {
         "seeing.outer_scale", "reconstruction.tolerance"}) {
     EXPECT_NEAR(returned.length(key) / original.length(key), 1.0, 1e-12) << key;
   }
-  EXPECT_NEAR(returned.number("seeing.d_over_r0"), 4.0, 1e-12);
+  EXPECT_NEAR(returned.numbers("seeing.d_over_r0").front(), 4.0, 1e-12);
   for (const char* key : {"sensor.planes", "baseline.planes"}) {
     for (std::size_t plane = 0; plane < 4; ++plane) {
       EXPECT_NEAR(returned.lengths(key).at(plane) / original.lengths(key).at(plane), 1.0, 1e-12);

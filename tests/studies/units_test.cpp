@@ -91,6 +91,14 @@ TEST(Units, ListsAllowSpacesButNoEmptyElement) {
   }
 }
 
+TEST(Units, NumbersAreSeparatedByCommas) {
+  EXPECT_THAT(parse_numbers(" 4 , 1e5,-3"), Optional(ElementsAre(4.0, 1e5, -3.0)));
+  EXPECT_THAT(parse_numbers("0.5"), Optional(ElementsAre(0.5)));
+  for (const char* text : {"", ",", "1,", ",1", "1,,2", "1;2", "1 2", "1,2m", "1,nan"}) {
+    EXPECT_EQ(parse_numbers(text), std::nullopt) << text;
+  }
+}
+
 TEST(ParseDomain, ReadsRangesAndLists) {
   const auto range = [](std::string_view text) {
     return std::get<ValueRange>(parse_domain(text, parse_length).value());

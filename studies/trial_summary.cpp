@@ -1,0 +1,46 @@
+#include "studies/trial_summary.hpp"
+
+#include "results/design_summary.hpp"
+#include "studies/design_text.hpp"
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const TriedDesign& tried, const DesignTrial& trial) {
+  const Condition& first = trial.conditions().front();
+  const Telescope& telescope = first.simulation->telescope();
+  Json json = to_json(first.lit(tried.design), telescope, first.fried_parameter);
+  json["cost"] = to_json(mean_and_standard_error(tried.costs));
+  json["violation"] = tried.violation;
+  json["performance"] = to_json(pooled(tried.performances));
+  if (trial.conditions().size() == 1) return json;
+  for (std::size_t k = 0; k < trial.conditions().size(); ++k) {
+    const Condition& condition = trial.conditions()[k];
+    json["conditions"].push_back(
+        {{"name", condition.name},
+         {"d_over_r0", telescope.diameter / condition.fried_parameter},
+         {"photons", condition.lit(tried.design).detector.photons_per_frame()},
+         {"performance", to_json(tried.performances[k])}});
+  }
+  return json;
+}
+
+std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial) {
+  if (trial.conditions().size() == 1) return {};
+  std::string table = fmt::format("  {:<32} {:>20} {:>20} {:>18}\n", "under each condition",
+                                  "residual WFE, nm", "total WFE, nm", "fractional loops");
+  for (std::size_t k = 0; k < trial.conditions().size(); ++k) {
+    const auto figure = [&](std::string_view metric) {
+      return with_error(tried.performances[k].mean_of(performance_metric(metric)));
+    };
+    table +=
+        fmt::format("  {:<32} {:>20} {:>20} {:>18}\n", trial.conditions()[k].name,
+                    figure("residual_wfe_nm"), figure("total_wfe_nm"), figure("fractional_loops"));
+  }
+  return table;
+}
+
+}  // namespace nlcwfs
