@@ -16,11 +16,11 @@ namespace nlcwfs {
 /// errors are absolute, in the unit of the mean; those of the distances say how far a plane may
 /// move before its design costs noticeably more.
 struct ScalingDatum {
-  double d_over_r0 = 0.0;           ///< pupil diameter over Fried parameter
-  MeanAndError z_near_talbot;       ///< near pair's |Z| over Z_T(r0) = 2 r0^2 / lambda
-  MeanAndError far_fresnel_number;  ///< far pair's D^2 / (lambda |Z|)
-  MeanAndError residual_wfe;        ///< wavelengths
-  MeanAndError fractional_loops;
+  double d_over_r0 = 0.0;             ///< pupil diameter over Fried parameter
+  MeanAndError z_near_talbot{};       ///< near pair's |Z| over Z_T(r0) = 2 r0^2 / lambda
+  MeanAndError far_fresnel_number{};  ///< far pair's D^2 / (lambda |Z|)
+  MeanAndError residual_wfe{};        ///< wavelengths
+  MeanAndError fractional_loops{};
 };
 
 /// A power law in D/r0: ln(value) = intercept + slope ln(D/r0).

@@ -41,6 +41,7 @@ std::vector<ScalingDatum> exact_data(const std::vector<double>& conditions, doub
 /// `count` D/r0 from 2 to 16, evenly in their logarithm.
 std::vector<double> conditions(int count) {
   std::vector<double> values;
+  values.reserve(count);
   for (int i = 0; i < count; ++i) values.push_back(2.0 * std::pow(8.0, i / (count - 1.0)));
   return values;
 }
