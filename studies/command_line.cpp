@@ -81,6 +81,7 @@ po::options_description general_options() {
   add("output", "DIR", "write the results there [results/<command>-<n>]");
   add("threads", "N", "use this many cores, 0 = all [0]");
   add_flag("quiet", "print no progress");
+  add_flag("verify", "advise: simulate the design on fresh screens, as the section verify says");
   add_flag("dump-config", "print every key with its value as a configuration file, and stop");
   add_flag("help", "print this text, and stop");
   add_flag("version", "print the version, and stop");
@@ -190,6 +191,7 @@ const std::vector<Command>& commands() {
       {"screens", "make phase screens: a FITS cube and its statistics"},
       {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
       {"optimize", "find a telescope's best design and verify it on fresh screens"},
+      {"advise", "tell a telescope's planes from the scaling law; --verify simulates them"},
       {"benchmark", "time a configuration on this machine; writes files only with --output"}};
   return known;
 }
@@ -200,6 +202,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
   const std::map<std::string, bool CommandLine::*> flags{
       {"quiet", &CommandLine::quiet},
+      {"verify", &CommandLine::verify},
       {"help", &CommandLine::help},
       {"version", &CommandLine::version},
       {"dump-config", &CommandLine::dump_config}};
@@ -242,6 +245,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     throw InputError(
         "command", one_line(""),
         fmt::format("one of {}; nlcwfs --help explains them", fmt::join(command_names(), ", ")));
+  }
+  if (result.verify && result.command != "advise") {
+    throw InputError("command line", "--verify",
+                     fmt::format("only advise takes it; leave it away with {}", result.command));
   }
   if (preset) result.configuration.apply_preset(*preset);
   for (const std::string& file : files) result.configuration.read_file(file);

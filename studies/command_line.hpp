@@ -26,6 +26,7 @@ struct CommandLine {
   std::optional<std::filesystem::path> output;  ///< directory for the results
   int threads = 0;                              ///< 0 = all cores
   bool quiet = false;
+  bool verify = false;   ///< simulate what advise predicts; only for advise
   bool help = false;     ///< then the configuration holds the defaults
   bool version = false;  ///< then the configuration holds the defaults
   bool dump_config = false;

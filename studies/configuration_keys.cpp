@@ -460,6 +460,12 @@ std::vector<ConfigurationKey> make_keys() {
                       "search.",
        .bounds = from_to(1, 16)},
 
+      {.name = "advise.law",
+       .kind = Kind::text,
+       .description = "File of the scaling law that advise follows, such as a run of advise leaves "
+                      "as law.json. Not set: the law that is built into the program.",
+       .example = "law.json"},
+
       {.name = "scale.diameter",
        .kind = Kind::length,
        .description = "Pupil diameter of the telescope that a design is moved to. Not set: as "

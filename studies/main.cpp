@@ -44,11 +44,8 @@ void run(int argc, const char* const* argv) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   static const std::map<std::string, std::function<void(const CommandLine&)>> studies{
-      {"benchmark", run_benchmark},
-      {"evaluate", run_evaluate},
-      {"optimize", run_optimize},
-      {"scale", run_scale},
-      {"screens", run_screens}};
+      {"advise", run_advise},     {"benchmark", run_benchmark}, {"evaluate", run_evaluate},
+      {"optimize", run_optimize}, {"scale", run_scale},         {"screens", run_screens}};
   studies.at(command_line.command)(command_line);
 }
 

@@ -14,6 +14,10 @@ void run_evaluate(const CommandLine& command_line);
 /// The best design of the configured search, verified on fresh screens beside the baseline.
 void run_optimize(const CommandLine& command_line);
 
+/// The planes that the scaling law gives for the configured telescope and seeing, and what they are
+/// predicted to reach; with --verify simulated too.
+void run_advise(const CommandLine& command_line);
+
 /// How fast this machine is at the configuration. Makes an output folder only where the user named
 /// one: its figures are of the moment.
 void run_benchmark(const CommandLine& command_line);

@@ -103,16 +103,17 @@ TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
 
 TEST(CommandLine, AsksForACommand) {
   const std::string message =
-      "command = (nothing): one of evaluate, screens, scale, optimize, benchmark; nlcwfs --help "
+      "command = (nothing): one of evaluate, screens, scale, optimize, advise, benchmark; nlcwfs "
+      "--help "
       "explains them";
   EXPECT_EQ(parse_message({}), message);
   EXPECT_EQ(parse_message({"--quiet"}), message);
   EXPECT_EQ(message_of([] { parse_command_line(0, std::vector<const char*>{nullptr}.data()); }),
             message);
-  EXPECT_EQ(
-      parse_message({"optimise"}),
-      "command = optimise: one of evaluate, screens, scale, optimize, benchmark; did you mean "
-      "optimize?");
+  EXPECT_EQ(parse_message({"optimise"}),
+            "command = optimise: one of evaluate, screens, scale, optimize, advise, benchmark; did "
+            "you mean "
+            "optimize?");
   EXPECT_THAT(parse_message({""}), StartsWith("command = (nothing): one of "));
 }
 
@@ -170,6 +171,16 @@ TEST(CommandLine, RefusesWhatIsGivenTwice) {
             "command line = --quiet: given twice; keep one of them");
 }
 
+TEST(CommandLine, OnlyAdviseVerifiesOnDemand) {
+  EXPECT_TRUE(parse({"advise", "--verify"}).verify);
+  EXPECT_FALSE(parse({"advise"}).verify);
+  for (const Command& command : commands()) {
+    if (command.name == "advise") continue;
+    EXPECT_EQ(parse_message({"--verify", command.name.c_str()}),
+              "command line = --verify: only advise takes it; leave it away with " + command.name);
+  }
+}
+
 TEST(CommandLine, ThreadsAreAWholeNumber) {
   for (const char* threads : {"-1", "1.5", "two", "4097", "99999999999"}) {
     EXPECT_EQ(
@@ -213,8 +224,8 @@ TEST(CommandLine, HelpListsCommandsOptionsAndKeysIn100Columns) {
   for (const Command& command : commands()) {
     EXPECT_THAT(help, AllOf(HasSubstr("\n  " + command.name), HasSubstr(command.description)));
   }
-  for (const char* option :
-       {"config", "preset", "output", "threads", "quiet", "dump-config", "help", "version"}) {
+  for (const char* option : {"config", "preset", "output", "threads", "quiet", "verify",
+                             "dump-config", "help", "version"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n  --") + option + " "));
   }
   for (const ConfigurationKey& key : configuration_keys()) {
