@@ -41,7 +41,7 @@ struct PooledQuantile {
 
   /// 1 / density at the quantile.
   double sparsity() const {
-    const double count = double(sorted_.size());
+    const auto count = double(sorted_.size());
     if (sorted_.size() == 1) return 0.0;
     const boost::math::normal normal;
     const double z = boost::math::quantile(normal, level_);

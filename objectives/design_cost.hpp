@@ -21,7 +21,7 @@ enum class CostKind {
 /// A metric in a cost, times a weight.
 struct CostTerm {
   DesignMetric metric;
-  double weight;  ///< per unit of the metric
+  double weight = 0.0;  ///< per unit of the metric
 };
 
 /// A side of a metric's value.
@@ -30,8 +30,8 @@ enum class Side { above, below };
 /// Values of a metric on one side of a bound, which is in the metric's unit.
 struct MetricBound {
   DesignMetric metric;
-  Side side;
-  double bound;
+  Side side = Side::above;
+  double bound = 0.0;
 
   /// How far a value lies on the side, in the metric's unit; 0 where it does not.
   double excess(double value) const;
@@ -40,7 +40,7 @@ struct MetricBound {
 /// Values that cost extra.
 struct Penalty {
   MetricBound penalised;
-  double weight;  ///< per unit of the metric that it is beyond the bound
+  double weight = 0.0;  ///< per unit of the metric that it is beyond the bound
 };
 
 /// Makes one number of a design's performance: the kind's cost, and on top the terms and the

@@ -4,10 +4,9 @@
 #include "studies/text.hpp"
 #include "studies/units.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include <string>
+#include <utility>
 
-#include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/split.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -64,7 +63,7 @@ auto parse_list(std::string_view key, std::string_view text, std::string_view fo
   std::vector<decltype(parse(Entry()))> list;
   if (trimmed(text).empty()) return list;
   std::vector<std::string> entries;
-  boost::split(entries, text, boost::is_any_of(","));
+  boost::split(entries, text, [](char c) { return c == ','; });
   for (const std::string& entry : entries) list.push_back(parse(Entry{key, trimmed(entry), form}));
   return list;
 }
@@ -84,7 +83,7 @@ std::vector<Penalty> parse_penalties(std::string_view key, std::string_view text
                     "as total_wfe_nm>30:0.1",
                     [](const Entry& entry) {
                       const auto [bound, weight] = entry.parts(entry.text, ":");
-                      const Penalty penalty{entry.bound(bound), entry.number(weight)};
+                      Penalty penalty{entry.bound(bound), entry.number(weight)};
                       if (penalty.weight < 0.0) entry.refuse();
                       return penalty;
                     });

@@ -236,11 +236,14 @@ void print_result(const Task& task, const SearchResult& result, std::string_view
                   const Improvement& gain) {
   const Performance best_performance = pooled(best.performances);
   const Performance baseline_performance = pooled(baseline.performances);
+  const std::size_t condition_count = task.trial.conditions().size();
+  const std::string conditions =
+      condition_count > 1 ? fmt::format(" under each of {} conditions", condition_count) : "";
   for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
-  fmt::print("Tried {} designs on {} screens in {} precision in {}, {}{}.\n\n", result.evaluations,
-             task.trial.screen_count(), precision, duration_text(search_seconds),
-             ending_text(result.termination),
+  fmt::print("Tried {} designs on {} screens{} in {} precision in {}, {}{}.\n\n",
+             result.evaluations, task.trial.screen_count(), conditions, precision,
+             duration_text(search_seconds), ending_text(result.termination),
              result.failures > 0
                  ? fmt::format("; {} of them failed, see search.csv", result.failures)
                  : "");

@@ -30,7 +30,7 @@ Json to_json(const TriedDesign& tried, const DesignTrial& trial) {
 
 std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial) {
   if (trial.conditions().size() == 1) return {};
-  std::string table = fmt::format("  {:<32} {:>20} {:>20} {:>18}\n", "under each condition",
+  std::string table = fmt::format("\n  {:<32} {:>20} {:>20} {:>18}\n", "under each condition",
                                   "residual WFE, nm", "total WFE, nm", "fractional loops");
   for (std::size_t k = 0; k < trial.conditions().size(); ++k) {
     const auto figure = [&](std::string_view metric) {

@@ -170,9 +170,8 @@ constexpr int repetitions = 400;
 Scatter scatter_of(AggregateKind kind, double level, std::size_t screens) {
   std::vector<double> means;
   std::vector<double> variances;
-  for (int repetition = 0; repetition < repetitions; ++repetition) {
-    const MeanAndError found = aggregated(
-        kind, level, correlated_costs(static_cast<std::uint64_t>(100 + repetition), screens));
+  for (std::uint64_t repetition = 0; repetition < repetitions; ++repetition) {
+    const MeanAndError found = aggregated(kind, level, correlated_costs(100 + repetition, screens));
     means.push_back(found.mean);
     variances.push_back(found.standard_error * found.standard_error);
   }

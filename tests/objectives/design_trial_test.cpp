@@ -151,6 +151,7 @@ TEST_F(DesignTrialTest, AggregatesTheConditionsCosts) {
   const std::vector<Condition> conditions{tiny_condition(telescope_, 4.0, 6),
                                           tiny_condition(telescope_, 8.0, 6)};
   std::vector<std::vector<double>> alone;
+  alone.reserve(conditions.size());
   for (const Condition& condition : conditions) {
     alone.push_back(DesignTrial({condition}, {}).run(design_).costs);
   }
