@@ -169,7 +169,10 @@ std::span<const DesignProperty> design_properties() {
           [](Design& d, double v) { d.reconstruction.oversampling = int(std::lround(v)); }},
       DesignProperty{"tolerance", continuous, logarithmic,
                      [](const Design& d) { return d.reconstruction.tolerance; },
-                     [](Design& d, double v) { d.reconstruction.tolerance = v; }}};
+                     [](Design& d, double v) { d.reconstruction.tolerance = v; }},
+      DesignProperty{"exposure", continuous, logarithmic,
+                     [](const Design& d) { return d.detector.exposure; },
+                     [](Design& d, double v) { d.detector.exposure = v; }}};
   return properties;
 }
 
@@ -482,9 +485,18 @@ std::optional<SearchPoint> DesignSpace::point_of(const SensorDesign& design) con
   return std::nullopt;
 }
 
+std::string DesignSpace::name(int sub_space, std::size_t variable) const {
+  return regions_[static_cast<std::size_t>(sub_space)].axes[variable].name;
+}
+
+double DesignSpace::value(int sub_space, std::size_t variable, double x) const {
+  return regions_[static_cast<std::size_t>(sub_space)].axes[variable].value_at(x);
+}
+
 bool DesignSpace::varies(std::string_view property) const {
   return std::ranges::any_of(regions_, [&](const Region& region) {
-    return std::ranges::count(region.axes, property, &Axis::name) > 0;
+    return region.fixed.contains(property) ||
+           std::ranges::count(region.axes, property, &Axis::name) > 0;
   });
 }
 

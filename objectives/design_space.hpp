@@ -40,7 +40,7 @@ struct DesignProperty {
 
 /// All of them: pupil_pixels, detector_window, reconstruction_window, relaxation (start and end
 /// alike), relaxation_start, relaxation_end, initial_guess (0 flat, 1 centroid),
-/// reconstruction_oversampling, tolerance.
+/// reconstruction_oversampling, tolerance, exposure.
 std::span<const DesignProperty> design_properties();
 
 /// How planes are placed.
@@ -109,7 +109,13 @@ class DesignSpace {
   /// the space has no such design.
   std::optional<SearchPoint> point_of(const SensorDesign& design) const;
 
-  /// Whether designs of the space differ in a property.
+  /// The property that a variable stands for: the variable's name without its scale.
+  std::string name(int sub_space, std::size_t variable) const;
+
+  /// The property's value, SI, at a value of the variable.
+  double value(int sub_space, std::size_t variable, double x) const;
+
+  /// Whether a property is one of the space's, so that it is not as in `base`.
   bool varies(std::string_view property) const;
 
  private:

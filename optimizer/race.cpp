@@ -17,9 +17,9 @@ Race::Race(std::vector<double> rival_costs, double significance)
 }
 
 double Race::significance_per_look() const {
-  // Looks at 2, 4, 8, ... samples, whichever of these the problem asks at.
-  const auto looks = std::bit_width(rival_costs_.size()) - 1;
-  return significance_ / std::max(1, static_cast<int>(looks));
+  // At 4, 8, 16, ... samples, as long as these are not all.
+  const auto looks = static_cast<int>(std::bit_width(rival_costs_.size() - 1)) - 2;
+  return significance_ / std::max(1, looks);
 }
 
 bool Race::goes_on(std::span<const double> costs) const {

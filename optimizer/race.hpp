@@ -8,7 +8,7 @@ namespace nlcwfs {
 /// Tells early that a design is worse than the best one so far, from its costs on the first
 /// samples.
 ///
-/// After ever more samples the differences to the rival's costs on the same samples are held
+/// After 4, 8, 16, ... samples the differences to the rival's costs on the same samples are held
 /// against zero by Student's t test, one-sided. A test that is repeated errs more often than once:
 /// each look has an equal part of the error allowed (Bonferroni 1936).
 class Race {

@@ -1,5 +1,5 @@
 #include "model/input_error.hpp"
-#include "objectives/verified_design.hpp"
+#include "objectives/design_trial.hpp"
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
 #include "studies/law_file.hpp"
@@ -12,7 +12,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -59,6 +58,8 @@ std::string shown_value(const Configuration& configuration, const ConfigurationK
   switch (key.kind) {
     case Kind::number:
       return fmt::format("{:.6g}", configuration.number(key.name));
+    case Kind::number_list:
+      return fmt::format("{:.6g}", fmt::join(configuration.numbers(key.name), ","));
     case Kind::length:
       return format_length(*configuration.optional_length(key.name) * length_scale);
     case Kind::ramp: {
@@ -126,6 +127,7 @@ std::string predictions_table(const std::array<Prediction, 2>& predictions) {
 
 void run_advise(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
+  require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   const LawFile file = configuration.is_set("advise.law")
@@ -134,10 +136,8 @@ void run_advise(const CommandLine& command_line) {
   const double d_over_r0 = telescope.diameter / seeing.fried_parameter;
   const SensorDesign design = advised_design(configuration, file.law, telescope, seeing);
   const std::vector<std::string> notes = differing_conditions(configuration, file.conditions);
-  const DesignCost cost = cost_of(configuration);
-  // A simulation cannot be moved, so an optional could not hold what a function returns.
-  const std::unique_ptr<Simulation> verification(
-      command_line.verify ? new Simulation(verification_of(configuration)) : nullptr);
+  std::optional<DesignTrial> verification;
+  if (command_line.verify) verification = verification_trial_of(configuration);
   if (verification) {
     try {
       verification->checked(design);
@@ -150,21 +150,21 @@ void run_advise(const CommandLine& command_line) {
 
   auto predictions = predictions_of(file.law, d_over_r0, telescope);
   Json design_json = to_json(design, telescope, seeing.fried_parameter);
-  std::optional<VerifiedDesign> verified;
+  std::optional<TriedDesign> verified;
   if (verification) {
     ProgressLine progress(command_line.quiet);
     progress.show(fmt::format("verification: {} fresh screens", verification->screen_count()));
     const auto start = std::chrono::steady_clock::now();
-    verified = verify(design, *verification, cost);
+    verified = verification->run(design);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     record.archive().add({.stage = "verify",
                           .design = design_json.dump(),
                           .cost = mean_and_standard_error(verified->costs).mean,
                           .failure = "",
                           .seconds = elapsed.count(),
-                          .performance = to_json(verified->performance).dump()});
+                          .performance = to_json(verified->performances.front()).dump()});
     design_json["cost"] = to_json(mean_and_standard_error(verified->costs));
-    design_json["performance"] = to_json(verified->performance);
+    design_json["performance"] = to_json(verified->performances.front());
   }
   const MeanAndError near = file.law.z_near_talbot.predict(d_over_r0);
   const MeanAndError far = file.law.far_fresnel_number.predict(d_over_r0);
@@ -176,7 +176,7 @@ void run_advise(const CommandLine& command_line) {
     const std::string metric(prediction.metric);
     predicted[metric] = to_json(prediction.predicted);
     if (!verified) continue;
-    prediction.simulated = verified->performance.mean_of(performance_metric(metric));
+    prediction.simulated = verified->performances.front().mean_of(performance_metric(metric));
     differences[metric] = to_json(prediction.difference());
     differences[metric]["standard_errors"] = prediction.standard_errors();
   }
@@ -192,14 +192,15 @@ void run_advise(const CommandLine& command_line) {
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n\nAdvised design, planes in visiting order:\n{}\n",
              telescope_line(telescope, seeing),
-             planes_table(design, telescope, seeing, verified ? &verified->performance : nullptr));
+             planes_table(design, telescope, seeing,
+                          verified ? &verified->performances.front() : nullptr));
   fmt::print("The law knows the near pair's distance to {:.0f} %, the far pair's to {:.0f} %.\n\n",
              100.0 * near.standard_error / near.mean, 100.0 * far.standard_error / far.mean);
   fmt::print("By the law of {} searches, D/r0 = {:g} to {:g}{}:\n{}", file.data.size(),
              file.law.least_d_over_r0, file.law.greatest_d_over_r0,
-             verified
-                 ? fmt::format(", and on {} fresh screens", verified->performance.screens.size())
-                 : "",
+             verified ? fmt::format(", and on {} fresh screens",
+                                    verified->performances.front().screens.size())
+                      : "",
              predictions_table(predictions));
   if (file.law.extrapolates(d_over_r0)) {
     fmt::print(
@@ -207,7 +208,7 @@ void run_advise(const CommandLine& command_line) {
         "than stated\n",
         d_over_r0);
   }
-  if (verified) fmt::print("{}", captured_energy_warnings(design, verified->performance));
+  if (verified) fmt::print("{}", captured_energy_warnings(design, verified->performances.front()));
   fmt::print(
       "\nadvised.cfg holds this design, and a search from it: nlcwfs optimize --config {}\n{}\n",
       record.folder().file("advised.cfg").string(), record.closing_line());

@@ -65,7 +65,9 @@ std::vector<Variation> variations() {
        {"reconstruction_oversampling", Kind::integer,
         "Reconstruction samples per detector pixel and axis.", from_to(1, 16), "1,2", "1,2,4"},
        {"tolerance", Kind::length, "Tolerance of the reconstruction, optical path.", above(0),
-        "0.1nm:10nm", "0.1nm:10nm:5:log"}});
+        "0.1nm:10nm", "0.1nm:10nm:5:log"},
+       {"exposure", Kind::time, "Exposure of a frame, with detector.photon_rate.", above(0),
+        "0.1ms:10ms", "0.1ms:10ms:5:log"}});
   return all;
 }
 
@@ -406,6 +408,42 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "150",
        .description = "Designs that the search may try.",
        .bounds = from_to(1, 1e9)},
+      {.name = "search.race",
+       .kind = Kind::number,
+       .default_text = "0.05",
+       .description =
+           "A design that is worse than the best one so far on its first 4, 8, ... screens "
+           "is given up there. This is the chance to give up one that is as good, at "
+           "most; 0 = every design is tried on all screens.",
+       .bounds = {.least = 0.0, .greatest = 0.2}},
+      {.name = "search.stagnation",
+       .kind = Kind::integer,
+       .default_text = "0",
+       .description =
+           "Designs in a row that are no better after which the search ends; 0 = however "
+           "many.",
+       .bounds = from_to(0, 1e9)},
+      {.name = "search.target",
+       .kind = Kind::number,
+       .description = "Cost at which the search ends. Not set: none.",
+       .example = "1.0"},
+      {.name = "search.cheap_budget",
+       .kind = Kind::integer,
+       .default_text = "0",
+       .description = "Designs of a cheap search before the search proper, in single precision, "
+                      "whose best ones it starts from; 0 = none.",
+       .bounds = from_to(0, 1e9)},
+      {.name = "search.cheap_screens",
+       .kind = Kind::integer,
+       .default_text = "4",
+       .description = "Number of phase screens of the cheap search.",
+       .bounds = from_to(1, 1e6)},
+      {.name = "search.cheap_window",
+       .kind = Kind::number,
+       .default_text = "0.5",
+       .description = "Window of the reconstruction in the cheap search, as a fraction of "
+                      "reconstruction.window, but at least the detector's.",
+       .bounds = {.least = 0.0, .greatest = 1.0, .least_included = false}},
       {.name = "search.precision",
        .kind = Kind::choice,
        .default_text = "single",
@@ -449,6 +487,12 @@ std::vector<ConfigurationKey> make_keys() {
            "set: 64, or four times screens.count where that is more.",
        .bounds = from_to(2, 1e6),
        .example = "256"},
+      {.name = "verify.candidates",
+       .kind = Kind::integer,
+       .default_text = "3",
+       .description = "How many of the search's best designs are verified; the best on the fresh "
+                      "screens is reported as the best.",
+       .bounds = from_to(1, 5)},
       {.name = "verify.seed",
        .kind = Kind::seed,
        .default_text = "1000003",

@@ -1,11 +1,6 @@
-#include "model/input_error.hpp"
-#include "objectives/design_comparison.hpp"
-#include "objectives/design_problem.hpp"
-#include "optimizer/chained_search.hpp"
-#include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
+#include "studies/design_search.hpp"
 #include "studies/design_text.hpp"
-#include "studies/interrupt.hpp"
 #include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
@@ -13,174 +8,51 @@
 #include "studies/trial_summary.hpp"
 #include "studies/units.hpp"
 
-#include <algorithm>
-#include <any>
 #include <chrono>
-#include <stdexcept>
-#include <stop_token>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+std::string_view word_for(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::better:
+      return "better";
+    case Verdict::indistinguishable:
+      return "tied";
+    case Verdict::worse:
+      break;
+  }
+  return "worse";
 }
 
-/// The method, limits and seed of the section search.
-SearchOptions search_options_of(const Configuration& configuration,
-                                const std::vector<SubSpace>& sub_spaces) {
-  SearchOptions options;
-  options.optimizer = configuration.text("search.optimizer");
-  options.seed = configuration.seed("search.seed");
-  options.evaluation.budget = configuration.integer("search.budget");
-  options.evaluation.time_limit = configuration.optional_time("search.time_limit");
-  try {
-    search_method(options.optimizer, sub_spaces);
-  } catch (const std::invalid_argument& error) {
-    throw InputError("search.optimizer", options.optimizer, error.what());
+/// The verified designs, best first, with the difference to the best one.
+Json ranking_array(const DesignSearchResult& result, const DesignSearch& task) {
+  Json ranking = Json::array();
+  for (const RankedDesign& ranked : result.ranking) {
+    Json json = to_json(ranked.verified, task.verification);
+    json["cost_above_best"] = to_json(
+        MeanAndError{-ranked.against_best.cost.mean, ranked.against_best.cost.standard_error});
+    json["verdict"] =
+        &ranked == &result.ranking.front() ? "best" : word_for(ranked.against_best.verdict);
+    ranking.push_back(json);
   }
-  return options;
+  return ranking;
 }
 
-/// What the configuration asks for, checked as a whole before anything is written.
-struct Task {
-  explicit Task(const Configuration& configuration);
-
-  Telescope telescope;
-  Seeing seeing;
-  std::vector<std::string> notes;
-  DesignTrial trial;
-  DesignTrial verification;
-  SensorDesign design;  ///< gives what the search does not vary
-  SensorDesign baseline;
-  DesignSpace space;
-  SearchOptions search;
-};
-
-Task::Task(const Configuration& configuration)
-    : telescope(telescope_of(configuration)),
-      seeing(seeing_of(configuration, telescope)),
-      trial(trial_of(configuration, "search.precision", notes)),
-      verification(verification_trial_of(configuration)),
-      design(trial.checked(design_of(configuration))),
-      baseline(trial.checked(baseline_of(configuration))),
-      space(search_space_of(configuration, telescope, design)),
-      search(search_options_of(configuration, space.sub_spaces())) {
-  try {
-    verification.checked(design);
-    verification.checked(baseline);
-  } catch (const InputError& error) {
-    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
-                     fmt::format("the finer truth does not suit the design: {}", error.what()));
+Json ranges_object(const DesignSearchResult& result) {
+  Json ranges = Json::object();
+  for (const OptimumRange& range : result.ranges) {
+    ranges[range.name] = {{"best", range.best},
+                          {"least", range.least},
+                          {"greatest", range.greatest},
+                          {"least_is_bound", range.least_is_bound},
+                          {"greatest_is_bound", range.greatest_is_bound}};
   }
-  if (!configuration.text("screens.file").empty()) {
-    notes.emplace_back("the verification is on simulated screens of the configured seeing");
-  }
-  // The user's own designs are tried first.
-  for (const SensorDesign* known : {&design, &baseline}) {
-    if (const auto point = space.point_of(*known)) search.starts.push_back(*point);
-  }
-}
-
-/// Watches a search: archive, table and progress line.
-class SearchLog {
- public:
-  SearchLog(const Task& task, RunRecord& record, bool quiet)
-      : task_(task), record_(record), progress_(quiet) {}
-
-  void add(const EvaluationRecord& evaluation) {
-    const SensorDesign design = task_.space.design(evaluation.point);
-    const bool failed = !evaluation.failure.empty();
-    const auto* tried = std::any_cast<TriedDesign>(&evaluation.detail);
-    record_.archive().add(
-        {.stage = "search",
-         .design = to_json(design, task_.telescope, task_.seeing.fried_parameter).dump(),
-         .cost = evaluation.cost,
-         .failure = evaluation.failure,
-         .seconds = evaluation.seconds,
-         .performance = failed ? "" : to_json(pooled(tried->performances)).dump()});
-
-    table_.row()
-        .add(evaluation.index)
-        .add(fmt::format("{:.7g}", fmt::join(design.planes, ",")))
-        .add(evaluation.cost);
-    for (const char* metric : {"residual_wfe_nm", "fractional_loops"}) {
-      if (failed) {
-        table_.add("");
-      } else {
-        table_.add(pooled(tried->performances).mean_of(performance_metric(metric)).mean);
-      }
-    }
-    table_.add(evaluation.failure);
-    show_progress(evaluation);
-  }
-
-  std::string table() const { return table_.text(); }
-
- private:
-  void show_progress(const EvaluationRecord& evaluation) {
-    const EvaluatorOptions& limits = task_.search.evaluation;
-    const double elapsed = seconds_since(start_);
-    double left = elapsed / evaluation.index * (limits.budget - evaluation.index);
-    if (limits.time_limit) left = std::min(left, std::max(0.0, *limits.time_limit - elapsed));
-    progress_.show(
-        fmt::format("search: design {} of {}, lowest cost {:.4g}, {} left, then the "
-                    "verification",
-                    evaluation.index, limits.budget, evaluation.best_cost, duration_text(left)));
-  }
-
-  const Task& task_;
-  RunRecord& record_;
-  ProgressLine progress_;
-  Clock::time_point start_ = Clock::now();
-  CsvTable table_{
-      {"evaluation", "planes_m", "cost", "residual_wfe_nm", "fractional_loops", "failure"}};
-};
-
-/// The search; Ctrl-C ends it with the best design so far.
-SearchResult search_until_interrupted(DesignProblem& problem, SearchOptions options,
-                                      SearchLog& log) {
-  const InterruptWatch watch;
-  std::stop_source stop;
-  options.evaluation.stop = stop.get_token();
-  options.evaluation.observer = [&](const EvaluationRecord& evaluation) {
-    log.add(evaluation);
-    if (InterruptWatch::interrupted()) stop.request_stop();
-  };
-  return search(problem, options);
-}
-
-TriedDesign verify_and_archive(const SensorDesign& design, std::string_view name, const Task& task,
-                               RunRecord& record, bool quiet) {
-  ProgressLine progress(quiet);
-  progress.show(
-      fmt::format("verification: {} on {} fresh screens", name, task.verification.screen_count()));
-  const auto start = Clock::now();
-  TriedDesign verified = task.verification.run(design);
-  record.archive().add(
-      {.stage = "verify",
-       .design = to_json(design, task.telescope, task.seeing.fried_parameter).dump(),
-       .cost = mean_and_standard_error(verified.costs).mean,
-       .failure = "",
-       .seconds = seconds_since(start),
-       .performance = to_json(pooled(verified.performances)).dump()});
-  return verified;
-}
-
-/// The best designs that differ, with what they cost on the screens of the search.
-Json leaders_array(const SearchResult& result, const Task& task) {
-  Json leaders = Json::array();
-  for (const EvaluatedDesign& leader : result.best_designs) {
-    leaders.push_back(
-        {{"planes_m", task.space.design(leader.point).planes}, {"cost", leader.cost}});
-  }
-  return leaders;
+  return ranges;
 }
 
 Json stages_array(const SearchResult& result) {
@@ -210,6 +82,90 @@ std::string_view ending_text(Termination termination) {
   return "until it was interrupted";
 }
 
+std::string search_text(const DesignSearch& task, const DesignSearchResult& result,
+                        std::string_view precision) {
+  const std::size_t conditions = task.trial.conditions().size();
+  std::string text = fmt::format(
+      "Tried {} designs on {} screens{} in {} precision in {}, {}", result.search.evaluations,
+      task.trial.screen_count(),
+      conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "", precision,
+      duration_text(result.search_seconds), ending_text(result.search.termination));
+  if (result.cheap_evaluations > 0) {
+    text += fmt::format("; before that {} in the cheap search", result.cheap_evaluations);
+  }
+  if (result.search.failures > 0) {
+    text += fmt::format("; {} of them failed, see search.csv", result.search.failures);
+  }
+  text += ".\n";
+  if (result.given_up > 0) {
+    text += fmt::format(
+        "{} clearly worse ones were given up after their first screens: {} reconstructions.\n",
+        result.given_up, result.search_reconstructions);
+  }
+  return text;
+}
+
+/// What of a design the search chose, other than its planes.
+std::string choices_text(const DesignSearch& task, const SensorDesign& design) {
+  std::string text;
+  for (const DesignProperty& property : design_properties()) {
+    if (!task.space.varies(property.name)) continue;
+    const double value = property.get(design);
+    const std::string shown = property.name == "initial_guess"
+                                  ? (value == 0.0 ? "flat" : "centroid")
+                              : property.name == "tolerance" ? format_length(value)
+                                                             : fmt::format("{:.4g}", value);
+    text += fmt::format("{}{} {}", text.empty() ? "  with " : ", ", property.name, shown);
+  }
+  return text.empty() ? text : text + '\n';
+}
+
+/// Whether the best few can be told apart.
+std::string ranking_text(const DesignSearchResult& result) {
+  if (result.ranking.size() < 2) return {};
+  std::string text =
+      fmt::format("The search's best {} designs on the fresh screens:\n", result.ranking.size());
+  for (const RankedDesign& ranked : result.ranking) {
+    const bool is_best = &ranked == &result.ranking.front();
+    std::string planes;
+    for (const double z : ranked.verified.design.planes) {
+      planes += fmt::format("{}{}", planes.empty() ? "" : ", ", format_length(z));
+    }
+    text += fmt::format(
+        "  cost {:>18}  {:<44} {}\n", with_error(mean_and_standard_error(ranked.verified.costs)),
+        planes,
+        is_best ? "the best"
+        : ranked.against_best.verdict == Verdict::indistinguishable
+            ? fmt::format("a tie: {} more", with_error({-ranked.against_best.cost.mean,
+                                                        ranked.against_best.cost.standard_error}))
+            : fmt::format("worse by {}", with_error({-ranked.against_best.cost.mean,
+                                                     ranked.against_best.cost.standard_error})));
+  }
+  return text + '\n';
+}
+
+/// How far the best design's variables may move.
+std::string ranges_text(const DesignSearch& task, const DesignSearchResult& result) {
+  if (result.ranges.empty()) return {};
+  std::string text =
+      fmt::format("Moved alone, each variable is as good on {} fresh screens (Student's t, 5 %):\n",
+                  task.trial.screen_count());
+  for (const OptimumRange& range : result.ranges) {
+    const bool is_length = range.name.starts_with('z') || range.name == "tolerance";
+    const auto shown = [&](double value) {
+      return is_length ? format_length(value) : fmt::format("{:.4g}", value);
+    };
+    text += fmt::format(
+        "  {:<24} {:>10} to {:<10}{}\n", range.name, shown(range.least), shown(range.greatest),
+        range.least_is_bound && range.greatest_is_bound ? "  all that was searched"
+        : range.least_is_bound || range.greatest_is_bound
+            ? fmt::format("  {} is the end of what was searched",
+                          shown(range.least_is_bound ? range.least : range.greatest))
+            : "");
+  }
+  return text + '\n';
+}
+
 std::string verdict_text(const Improvement& improvement, const TriedDesign& baseline) {
   switch (improvement.verdict) {
     case Verdict::better:
@@ -231,33 +187,36 @@ std::string verdict_text(const Improvement& improvement, const TriedDesign& base
       with_error({-improvement.cost.mean, improvement.cost.standard_error}));
 }
 
-void print_result(const Task& task, const SearchResult& result, std::string_view precision,
-                  double search_seconds, const TriedDesign& best, const TriedDesign& baseline,
-                  const Improvement& gain) {
+std::string limits_text(const TriedDesign& best) {
+  if (best.violation == 0.0) return {};
+  return fmt::format(
+      "warning: no design was found that keeps objective.limits; the best exceeds them by {:.2g} "
+      "of "
+      "their bounds\n",
+      best.violation);
+}
+
+void print_result(const DesignSearch& task, const DesignSearchResult& result,
+                  std::string_view precision) {
+  const TriedDesign& best = result.best();
   const Performance best_performance = pooled(best.performances);
-  const Performance baseline_performance = pooled(baseline.performances);
-  const std::size_t condition_count = task.trial.conditions().size();
-  const std::string conditions =
-      condition_count > 1 ? fmt::format(" under each of {} conditions", condition_count) : "";
+  const Performance baseline_performance = pooled(result.baseline.performances);
   for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
-  fmt::print("Tried {} designs on {} screens{} in {} precision in {}, {}{}.\n\n",
-             result.evaluations, task.trial.screen_count(), conditions, precision,
-             duration_text(search_seconds), ending_text(result.termination),
-             result.failures > 0
-                 ? fmt::format("; {} of them failed, see search.csv", result.failures)
-                 : "");
-  fmt::print("Best design, planes in visiting order:\n{}\n",
-             planes_table(best.design, task.telescope, task.seeing, &best_performance));
-  fmt::print("Baseline:\n{}\n",
-             planes_table(baseline.design, task.telescope, task.seeing, &baseline_performance));
+  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing),
+             search_text(task, result, precision));
+  fmt::print("Best design, planes in visiting order:\n{}{}\n",
+             planes_table(best.design, task.telescope, task.seeing, &best_performance),
+             choices_text(task, best.design));
+  fmt::print("Baseline:\n{}\n", planes_table(result.baseline.design, task.telescope, task.seeing,
+                                             &baseline_performance));
   fmt::print("Both on the same {} fresh screens, true field {} samples across the pupil:\n{}",
              task.verification.screen_count(),
              task.verification.conditions().front().simulation->truth_samples(),
              performance_table({{"best design", &best_performance, best.costs},
-                                {"baseline", &baseline_performance, baseline.costs}}));
-  fmt::print("{}", conditions_table(best, task.verification));
-  fmt::print("\n{}\n{}", verdict_text(gain, baseline),
+                                {"baseline", &baseline_performance, result.baseline.costs}}));
+  fmt::print("{}\n{}{}", conditions_table(best, task.verification), ranking_text(result),
+             ranges_text(task, result));
+  fmt::print("{}\n{}{}", verdict_text(result.gain, result.baseline), limits_text(best),
              captured_energy_warnings(best.design, best_performance));
 }
 
@@ -265,44 +224,35 @@ void print_result(const Task& task, const SearchResult& result, std::string_view
 
 void run_optimize(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
-  const auto start = Clock::now();
-  const Task task(configuration);
+  const auto start = std::chrono::steady_clock::now();
+  const DesignSearch task(configuration);
   RunRecord record(command_line);
-
-  DesignProblem problem(task.space, task.trial);
-  SearchLog log(task, record, command_line.quiet);
-  const auto search_start = Clock::now();
-  const SearchResult result = search_until_interrupted(problem, task.search, log);
-  const double search_seconds = seconds_since(search_start);
-
-  const TriedDesign best = verify_and_archive(task.space.design(result.best->point), "best design",
-                                              task, record, command_line.quiet);
-  const TriedDesign baseline =
-      verify_and_archive(task.baseline, "baseline", task, record, command_line.quiet);
-  const Improvement gain = improvement(best, baseline);
+  const DesignSearchResult result = task.run(record.archive(), command_line.quiet);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
   Configuration best_configuration = configuration;
-  best_configuration.set("sensor.planes", fmt::format("{}", fmt::join(best.design.planes, ",")),
-                         "by the search");
+  set_design(best_configuration, result.best().design, task.space, "by the search");
   record.folder().write("best.cfg", best_configuration.dump());
-  record.folder().write("search.csv", log.table());
+  record.folder().write("search.csv", result.table);
   record.write_summary(
-      {{"best", to_json(best, task.verification)},
-       {"baseline", to_json(baseline, task.verification)},
-       {"improvement", {{"cost", gain.cost.mean}, {"standard_error", gain.cost.standard_error}}},
-       {"leaders_of_search", leaders_array(result, task)},
-       {"evaluations", result.evaluations},
-       {"cache_hits", result.cache_hits},
-       {"failures", result.failures},
-       {"reconstructions", ((result.evaluations - result.failures) * task.trial.screen_count() +
-                            2 * task.verification.screen_count()) *
-                               static_cast<int>(task.trial.conditions().size())},
-       {"wall_seconds", seconds_since(start)},
-       {"search_seconds", search_seconds},
-       {"termination", to_string(result.termination)},
-       {"stages", stages_array(result)}});
-  print_result(task, result, configuration.choice("search.precision"), search_seconds, best,
-               baseline, gain);
+      {{"best", to_json(result.best(), task.verification)},
+       {"baseline", to_json(result.baseline, task.verification)},
+       {"improvement",
+        {{"cost", result.gain.cost.mean}, {"standard_error", result.gain.cost.standard_error}}},
+       {"ranking", ranking_array(result, task)},
+       {"indistinguishable", ranges_object(result)},
+       {"evaluations", result.search.evaluations},
+       {"cheap_evaluations", result.cheap_evaluations},
+       {"given_up", result.given_up},
+       {"cache_hits", result.search.cache_hits},
+       {"failures", result.search.failures},
+       {"search_reconstructions", result.search_reconstructions},
+       {"reconstructions", result.reconstructions},
+       {"wall_seconds", elapsed.count()},
+       {"search_seconds", result.search_seconds},
+       {"termination", to_string(result.search.termination)},
+       {"stages", stages_array(result.search)}});
+  print_result(task, result, configuration.choice("search.precision"));
   fmt::print("{}\n", record.closing_line());
 }
 

@@ -364,6 +364,42 @@ DesignSpace search_space_of(const Configuration& configuration, const Telescope&
   return {telescope, std::move(options)};
 }
 
+void set_design(Configuration& configuration, const SensorDesign& design, const DesignSpace& space,
+                std::string_view source) {
+  const auto set = [&](std::string_view key, const std::string& value) {
+    configuration.set(key, value, source);
+  };
+  const ReconstructionOptions& reconstruction = design.reconstruction;
+  set("sensor.planes", fmt::format("{}", fmt::join(design.planes, ",")));
+  if (space.varies("pupil_pixels")) {
+    set("detector.pupil_pixels", fmt::format("{}", design.detector.pupil_pixels));
+  }
+  if (space.varies("detector_window")) {
+    set("detector.window", fmt::format("{}", design.detector.window));
+  }
+  if (space.varies("exposure")) {
+    set("detector.exposure", fmt::format("{}", design.detector.exposure));
+  }
+  if (space.varies("reconstruction_window")) {
+    set("reconstruction.window", fmt::format("{}", reconstruction.window));
+  }
+  if (space.varies("relaxation") || space.varies("relaxation_start") ||
+      space.varies("relaxation_end")) {
+    set("reconstruction.relaxation",
+        fmt::format("{}:{}", reconstruction.relaxation_start, reconstruction.relaxation_end));
+  }
+  if (space.varies("initial_guess")) {
+    set("reconstruction.initial_guess",
+        reconstruction.initial_guess == InitialGuess::flat ? "flat" : "centroid");
+  }
+  if (space.varies("reconstruction_oversampling")) {
+    set("reconstruction.oversampling", fmt::format("{}", reconstruction.oversampling));
+  }
+  if (space.varies("tolerance")) {
+    set("reconstruction.tolerance", fmt::format("{}", reconstruction.tolerance));
+  }
+}
+
 int truth_samples(const Configuration& configuration) {
   return configuration.integer(is_matched(configuration) ? "detector.pupil_pixels"
                                                          : "simulation.pupil_samples");
@@ -397,6 +433,20 @@ DesignTrial trial_of(const Configuration& configuration, std::string_view precis
                           return screens_in(configuration, telescope, seeing, notes);
                         }),
           std::move(cost)};
+}
+
+DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
+                           bool pixels_vary) {
+  const Telescope telescope = telescope_of(configuration);
+  SimulationOptions options = simulation_options_of(configuration, precision_key);
+  options.noise_seed = configuration.seed("verify.seed");
+  return {conditions_of(configuration, telescope, options,
+                        [&](const Seeing& seeing) {
+                          return simulated_screens(
+                              configuration, telescope, seeing, truth_samples(configuration),
+                              configuration.integer("screens.count"), "verify.seed");
+                        }),
+          cost_of(configuration, pixels_vary)};
 }
 
 DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary) {

@@ -49,6 +49,10 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary);
 DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
                             SensorDesign base);
 
+/// Sets the planes and everything else that a space varies to a design's values.
+void set_design(Configuration& configuration, const SensorDesign& design, const DesignSpace& space,
+                std::string_view source);
+
 /// Samples of the true field across the pupil; a matched truth has the detector's.
 int truth_samples(const Configuration& configuration);
 
@@ -70,6 +74,10 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
 /// @param pixels_vary  see cost_of
 DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
                      std::vector<std::string>& notes, bool pixels_vary = false);
+
+/// The same on as many fresh screens, those of the verification.
+DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
+                           bool pixels_vary = false);
 
 /// The trial that results are verified in: verify.screens fresh screens of verify.seed, on a truth
 /// verify.truth_factor times as fine, in double precision. A matched truth that is refined no

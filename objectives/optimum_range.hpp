@@ -1,0 +1,31 @@
+#pragma once
+
+#include "objectives/design_space.hpp"
+#include "objectives/design_trial.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace nlcwfs {
+
+/// How far one variable of a design may move before the design is worse.
+struct OptimumRange {
+  std::string name;     ///< of the property, without "log"
+  double best;          ///< its value in the design, SI
+  double least;         ///< the lowest value tried that cannot be told from the best
+  double greatest;      ///< the highest
+  bool least_is_bound;  ///< the whole way to the end of the search's range is as good
+  bool greatest_is_bound;
+};
+
+/// Scans each continuous variable of a design on both sides, the others held, until the costs on
+/// the trial's screens are worse by Student's t test at 5 %, paired by screen. The scan steps out
+/// by doubled steps from a hundredth of the variable's range, and then halves the last step twice,
+/// so the ends are exact to a quarter of the distance from the best.
+/// @param stop  ends it after the variable that is being scanned
+std::vector<OptimumRange> optimum_ranges(const DesignSpace& space, const DesignTrial& trial,
+                                         const SearchPoint& best,
+                                         const std::function<bool()>& stop);
+
+}  // namespace nlcwfs

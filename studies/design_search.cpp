@@ -1,0 +1,223 @@
+#include "studies/design_search.hpp"
+
+#include "model/input_error.hpp"
+#include "objectives/design_problem.hpp"
+#include "results/design_summary.hpp"
+#include "studies/interrupt.hpp"
+#include "studies/progress_line.hpp"
+#include "studies/search_log.hpp"
+#include "studies/settings.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <stop_token>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The method, limits and seed of the section search.
+SearchOptions search_options_of(const Configuration& configuration,
+                                const std::vector<SubSpace>& sub_spaces) {
+  SearchOptions options;
+  options.optimizer = configuration.text("search.optimizer");
+  options.seed = configuration.seed("search.seed");
+  EvaluatorOptions& evaluation = options.evaluation;
+  evaluation.budget = configuration.integer("search.budget");
+  evaluation.time_limit = configuration.optional_time("search.time_limit");
+  evaluation.stagnation = configuration.integer("search.stagnation");
+  evaluation.race_significance = configuration.number("search.race");
+  if (configuration.is_set("search.target")) {
+    evaluation.target = configuration.number("search.target");
+  }
+  for (const SubSpace& sub_space : sub_spaces) {
+    if (!sub_space.variables.empty()) continue;
+    throw InputError("search.plane_count", sub_space.name,
+                     "nothing of this design may vary; give a key of the section search a range or "
+                     "a list");
+  }
+  try {
+    search_method(options.optimizer, sub_spaces);
+  } catch (const std::invalid_argument& error) {
+    throw InputError("search.optimizer", options.optimizer, error.what());
+  }
+  return options;
+}
+
+/// Tries each value that discrete variables have, and both ends of the others, one at a time.
+void require_valid_designs(const DesignSpace& space, const DesignTrial& trial) {
+  const std::vector<SubSpace> sub_spaces = space.sub_spaces();
+  for (std::size_t s = 0; s < sub_spaces.size(); ++s) {
+    const std::vector<Variable>& variables = sub_spaces[s].variables;
+    SearchPoint point{static_cast<int>(s), Eigen::VectorXd(variables.size())};
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      point.x[Eigen::Index(i)] = variables[i].lower;
+    }
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      SearchPoint moved = point;
+      double& x = moved.x[Eigen::Index(i)];
+      const bool is_order = space.name(point.sub_space, i) == "order";  // all are equally valid
+      const double step =
+          variables[i].is_continuous() || is_order ? variables[i].upper - variables[i].lower : 1.0;
+      for (x = variables[i].lower; x <= variables[i].upper; x += step) {
+        trial.checked(space.design(moved));
+      }
+    }
+  }
+}
+
+DesignTrial cheap_trial_of(const Configuration& configuration, bool pixels_vary) {
+  Configuration cheap = configuration;
+  for (const auto& [key, value] :
+       {std::pair("screens.count", configuration.value_text("search.cheap_screens")),
+        std::pair("search.precision", std::string("single"))}) {
+    cheap.set(key, value, "by the cheap search");
+  }
+  std::vector<std::string> ignored_notes;
+  return trial_of(cheap, "search.precision", ignored_notes, pixels_vary);
+}
+
+}  // namespace
+
+DesignSearch::DesignSearch(const Configuration& configuration)
+    : telescope(telescope_of(configuration)),
+      seeing(seeing_of(configuration, telescope)),
+      space(search_space_of(
+          configuration, telescope,
+          simulated_design(design_of(configuration), telescope,
+                           simulation_options_of(configuration, "search.precision").truth,
+                           truth_samples(configuration)))),
+      options(search_options_of(configuration, space.sub_spaces())),
+      trial(trial_of(configuration, "search.precision", notes, space.varies("pupil_pixels"))),
+      verification(verification_trial_of(configuration, space.varies("pupil_pixels"))),
+      baseline(trial.checked(baseline_of(configuration))),
+      scan_trial_(fresh_trial_of(configuration, "search.precision", space.varies("pupil_pixels"))),
+      candidates_(configuration.integer("verify.candidates")) {
+  require_valid_designs(space, trial);
+  try {
+    verification.checked(baseline);
+    require_valid_designs(space, verification);
+  } catch (const InputError& error) {
+    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
+                     fmt::format("the finer truth does not suit the design: {}", error.what()));
+  }
+  if (!configuration.text("screens.file").empty()) {
+    notes.emplace_back("the verification is on simulated screens of the configured seeing");
+  }
+  // The user's own designs are tried first.
+  for (const SensorDesign& known : {design_of(configuration), baseline}) {
+    if (const auto point = space.point_of(known)) options.starts.push_back(*point);
+  }
+  if (configuration.integer("search.cheap_budget") == 0) return;
+  SensorDesign cheap = simulated_design(
+      design_of(configuration), telescope,
+      simulation_options_of(configuration, "search.precision").truth, truth_samples(configuration));
+  cheap.reconstruction.window =
+      std::max(configuration.number("search.cheap_window") * cheap.reconstruction.window,
+               cheap.detector.window);
+  SearchOptions cheap_options = options;
+  cheap_options.evaluation.budget = configuration.integer("search.cheap_budget");
+  cheap_.emplace(CheapStage{cheap_trial_of(configuration, space.varies("pupil_pixels")),
+                            search_space_of(configuration, telescope, cheap), cheap_options});
+}
+
+DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
+  DesignSearchResult result;
+  const InterruptWatch watch;
+  std::vector<SearchPoint> starts = options.starts;
+  const auto start = Clock::now();
+  if (cheap_) {
+    const SearchResult cheap = search_stage("cheap search", cheap_->space, cheap_->trial,
+                                            cheap_->options, archive, quiet, result);
+    result.cheap_evaluations = cheap.evaluations;
+    // Not the costs: they are of another simulation.
+    for (const EvaluatedDesign& leader : cheap.best_designs) {
+      starts.push_back(leader.point);
+    }
+  }
+  SearchOptions from_starts = options;
+  from_starts.starts = starts;
+  result.search = search_stage("search", space, trial, from_starts, archive, quiet, result);
+  result.search_seconds = seconds_since(start);
+  result.reconstructions = result.search_reconstructions;
+
+  const auto verify = [&](const SensorDesign& candidate, const std::string& name) {
+    result.reconstructions +=
+        static_cast<long>(verification.conditions().size()) * verification.screen_count();
+    return verified(candidate, name, archive, quiet);
+  };
+  const auto& leaders = result.search.best_designs;
+  const std::size_t count = std::min(leaders.size(), static_cast<std::size_t>(candidates_));
+  for (std::size_t i = 0; i < count; ++i) {
+    result.ranking.push_back(
+        {leaders[i].point,
+         verify(space.design(leaders[i].point), fmt::format("design {} of {}", i + 1, count)),
+         {}});
+  }
+  std::ranges::stable_sort(result.ranking, [](const RankedDesign& a, const RankedDesign& b) {
+    if (a.verified.violation != b.verified.violation) {
+      return a.verified.violation < b.verified.violation;
+    }
+    return mean_and_standard_error(a.verified.costs).mean <
+           mean_and_standard_error(b.verified.costs).mean;
+  });
+  for (RankedDesign& ranked : result.ranking) {
+    ranked.against_best = improvement(ranked.verified, result.best());
+  }
+  result.baseline = verify(baseline, "the baseline");
+  result.gain = improvement(result.best(), result.baseline);
+
+  ProgressLine progress(quiet);
+  progress.show("how far each variable may move");
+  result.ranges = optimum_ranges(space, scan_trial_, result.ranking.front().point,
+                                 [] { return InterruptWatch::interrupted(); });
+  return result;
+}
+
+SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpace& stage_space,
+                                        const DesignTrial& stage_trial, SearchOptions stage_options,
+                                        Archive& archive, bool quiet,
+                                        DesignSearchResult& result) const {
+  DesignProblem problem(stage_space, stage_trial);
+  SearchLog log(name, stage_space, telescope, seeing.fried_parameter, stage_options.evaluation,
+                archive, quiet);
+  std::stop_source stop;
+  if (InterruptWatch::interrupted()) stop.request_stop();
+  stage_options.evaluation.stop = stop.get_token();
+  stage_options.evaluation.observer = [&](const EvaluationRecord& evaluation) {
+    log.add(evaluation);
+    if (InterruptWatch::interrupted()) stop.request_stop();
+  };
+  SearchResult found = search(problem, stage_options);
+  result.search_reconstructions += log.reconstructions();
+  result.given_up += log.given_up();
+  result.table = log.table();
+  return found;
+}
+
+TriedDesign DesignSearch::verified(const SensorDesign& candidate, const std::string& name,
+                                   Archive& archive, bool quiet) const {
+  ProgressLine progress(quiet);
+  progress.show(
+      fmt::format("verification: {} on {} fresh screens", name, verification.screen_count()));
+  const auto start = Clock::now();
+  TriedDesign tried = verification.run(candidate);
+  archive.add({.stage = "verify",
+               .design = to_json(candidate, telescope, seeing.fried_parameter).dump(),
+               .cost = mean_and_standard_error(tried.costs).mean,
+               .failure = "",
+               .seconds = seconds_since(start),
+               .performance = to_json(pooled(tried.performances)).dump()});
+  return tried;
+}
+
+}  // namespace nlcwfs

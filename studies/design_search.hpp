@@ -1,0 +1,83 @@
+#pragma once
+
+#include "model/seeing.hpp"
+#include "model/telescope.hpp"
+#include "objectives/design_comparison.hpp"
+#include "objectives/design_space.hpp"
+#include "objectives/design_trial.hpp"
+#include "objectives/optimum_range.hpp"
+#include "optimizer/chained_search.hpp"
+#include "results/archive.hpp"
+#include "studies/configuration.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nlcwfs {
+
+/// A design of a search on fresh screens, held against the best one.
+struct RankedDesign {
+  SearchPoint point;
+  TriedDesign verified;
+  /// The best design's cost minus this one's, paired by screen; better or worse than the best where
+  /// it can be told apart.
+  Improvement against_best;
+};
+
+/// What a search found, and what it took.
+struct DesignSearchResult {
+  SearchResult search;
+  /// The search's best few on fresh screens, by their costs there, best first.
+  std::vector<RankedDesign> ranking;
+  TriedDesign baseline;  ///< on the same screens
+  Improvement gain;      ///< of the best over the baseline
+  std::vector<OptimumRange> ranges;
+  int cheap_evaluations = 0;        ///< designs of the cheap stage
+  int given_up = 0;                 ///< designs that races gave up
+  long search_reconstructions = 0;  ///< of both stages
+  long reconstructions = 0;         ///< verification and ranges included
+  double search_seconds = 0.0;
+  std::string table;  ///< CSV of the designs of the search
+
+  const TriedDesign& best() const { return ranking.front().verified; }
+};
+
+/// A search of the sections search, baseline and verify, checked as a whole when it is made.
+class DesignSearch {
+ public:
+  /// @throws InputError where values do not go together
+  explicit DesignSearch(const Configuration& configuration);
+
+  /// The cheap stage where there is one, the search, and the verification on fresh screens. Ctrl-C
+  /// ends the search with the best designs so far.
+  DesignSearchResult run(Archive& archive, bool quiet) const;
+
+  const Telescope telescope;
+  const Seeing seeing;  ///< the first, where there are several
+  const DesignSpace space;
+  SearchOptions options;           ///< of the search proper
+  std::vector<std::string> notes;  ///< for the user
+  const DesignTrial trial;         ///< of the search
+  const DesignTrial verification;
+  const SensorDesign baseline;
+
+ private:
+  struct CheapStage {
+    DesignTrial trial;
+    DesignSpace space;
+    SearchOptions options;
+  };
+
+  SearchResult search_stage(const std::string& name, const DesignSpace& stage_space,
+                            const DesignTrial& stage_trial, SearchOptions stage_options,
+                            Archive& archive, bool quiet, DesignSearchResult& result) const;
+  TriedDesign verified(const SensorDesign& candidate, const std::string& name, Archive& archive,
+                       bool quiet) const;
+
+  std::optional<CheapStage> cheap_;
+  DesignTrial scan_trial_;  ///< for the ranges: fresh screens, as many as the search's
+  int candidates_;
+};
+
+}  // namespace nlcwfs

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "model/telescope.hpp"
+#include "objectives/design_space.hpp"
+#include "objectives/design_trial.hpp"
+#include "optimizer/evaluator.hpp"
+#include "results/archive.hpp"
+#include "results/csv_table.hpp"
+#include "studies/progress_line.hpp"
+
+#include <chrono>
+#include <string>
+
+namespace nlcwfs {
+
+/// Watches a search of a design space: archive, table and progress line.
+class SearchLog {
+ public:
+  /// @param stage  for the archive and the progress line: "search"
+  SearchLog(std::string stage, const DesignSpace& space, const Telescope& telescope,
+            double fried_parameter, const EvaluatorOptions& limits, Archive& archive, bool quiet);
+
+  void add(const EvaluationRecord& evaluation);
+
+  /// Of the screens of all designs, those given up included.
+  long reconstructions() const { return reconstructions_; }
+  /// Designs that a race gave up.
+  int given_up() const { return given_up_; }
+  /// The designs in the order in which they were tried.
+  std::string table() const { return table_.text(); }
+
+ private:
+  void show_progress(const EvaluationRecord& evaluation);
+
+  std::string stage_;
+  const DesignSpace& space_;
+  const Telescope& telescope_;
+  double fried_parameter_;
+  const EvaluatorOptions& limits_;
+  Archive& archive_;
+  ProgressLine progress_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  CsvTable table_;
+  long reconstructions_ = 0;
+  int given_up_ = 0;
+};
+
+}  // namespace nlcwfs

@@ -1,0 +1,71 @@
+#include "objectives/optimum_range.hpp"
+
+#include "objectives/design_comparison.hpp"
+#include "tests/objectives/tiny_simulation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace nlcwfs {
+namespace {
+
+DesignSpace space_of_two_pairs(const Telescope& telescope) {
+  return {telescope,
+          {.base = tiny_design(telescope),
+           .orders = {{3, 4, 1, 2}},
+           .domains = {{"relaxation", ValueRange{-0.5, 0.8}}}}};
+}
+
+TEST(OptimumRange, HoldsTheBestAndEndsWhereDesignsAreWorse) {
+  const Telescope telescope;
+  const DesignTrial trial({tiny_condition(telescope, 4.0, 12)}, {});
+  const DesignSpace space = space_of_two_pairs(telescope);
+  const SearchPoint best = space.point_of(tiny_design(telescope)).value();
+  const std::vector<OptimumRange> ranges = optimum_ranges(space, trial, best, [] { return false; });
+  ASSERT_EQ(ranges.size(), 3u);
+  EXPECT_EQ(ranges[0].name, "z_near");
+  EXPECT_EQ(ranges[1].name, "z_far");
+  EXPECT_EQ(ranges[2].name, "relaxation");
+
+  const TriedDesign reference = trial.run(space.design(best));
+  const std::vector<Variable> variables = space.sub_spaces().front().variables;
+  int ends_inside = 0;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    SCOPED_TRACE(ranges[i].name);
+    EXPECT_LE(ranges[i].least, ranges[i].best * (1.0 + 1e-12));
+    EXPECT_GE(ranges[i].greatest, ranges[i].best * (1.0 - 1e-12));
+    for (const bool upper : {false, true}) {
+      if (upper ? ranges[i].greatest_is_bound : ranges[i].least_is_bound) continue;
+      ++ends_inside;
+      // The end is as good as the best; a third farther on it no longer is.
+      const double end = upper ? ranges[i].greatest : ranges[i].least;
+      SearchPoint point = best;
+      double& x = point.x[Eigen::Index(i)];
+      const double centre = x;
+      const auto x_of = [&](double value) {
+        return variables[i].name.starts_with("log")
+                   ? std::log(value) - std::log(ranges[i].best) + centre
+                   : value;
+      };
+      x = x_of(end);
+      EXPECT_NE(improvement(trial.run(space.design(point)), reference).verdict, Verdict::worse);
+      if (x == centre) continue;  // already the first step is worse
+      x = centre + 1.34 * (x_of(end) - centre);
+      if (x <= variables[i].lower || x >= variables[i].upper) continue;
+      EXPECT_EQ(improvement(trial.run(space.design(point)), reference).verdict, Verdict::worse);
+    }
+  }
+  EXPECT_GE(ends_inside, 3) << "the test shows little";
+}
+
+TEST(OptimumRange, EndsWhereItIsTold) {
+  const Telescope telescope;
+  const DesignTrial trial({tiny_condition(telescope)}, {});
+  const DesignSpace space = space_of_two_pairs(telescope);
+  const SearchPoint best = space.point_of(tiny_design(telescope)).value();
+  int asked = 0;
+  EXPECT_EQ(optimum_ranges(space, trial, best, [&] { return ++asked > 1; }).size(), 1u);
+}
+
+}  // namespace
+}  // namespace nlcwfs
