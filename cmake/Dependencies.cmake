@@ -23,3 +23,19 @@ foreach(library FFTW FFTWF NLOPT CFITSIO)
     return()
   endif()
 endforeach()
+# Neither pkg-config nor dlib's CMake package, which name libraries that only dlib itself needs and
+# whose development packages need not be there.
+if(NOT TARGET nlcwfs::dlib)
+  find_library(NLCWFS_DLIB_LIBRARY dlib)
+  find_path(NLCWFS_DLIB_INCLUDE_DIR dlib/global_optimization/global_function_search.h)
+  mark_as_advanced(NLCWFS_DLIB_LIBRARY NLCWFS_DLIB_INCLUDE_DIR)
+  if(NOT NLCWFS_DLIB_LIBRARY OR NOT NLCWFS_DLIB_INCLUDE_DIR)
+    set(nlcwfs_FOUND FALSE)
+    set(nlcwfs_NOT_FOUND_MESSAGE "dlib is not found: its library or its headers.")
+    return()
+  endif()
+  add_library(nlcwfs::dlib UNKNOWN IMPORTED)
+  set_target_properties(
+    nlcwfs::dlib PROPERTIES IMPORTED_LOCATION "${NLCWFS_DLIB_LIBRARY}"
+                            INTERFACE_INCLUDE_DIRECTORIES "${NLCWFS_DLIB_INCLUDE_DIR}")
+endif()

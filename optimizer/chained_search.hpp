@@ -17,7 +17,11 @@ struct SearchMethod {
 };
 
 /// The method that a name stands for: `GLOBAL+LOCAL` such as `direct_l+sbplx`, one algorithm alone
-/// (see nlopt_scope), or `auto`: direct_l+sbplx up to 2 variables, direct_l+nelder_mead above.
+/// (see nlopt_scope, and `dlib`, which is global and needs no continuous variable: see
+/// minimize_with_dlib), or `auto`. That is, in one sub-space without integer variables and
+/// of at most 32 slices, direct_l+sbplx up to 2 continuous variables and direct_l+nelder_mead
+/// above; elsewhere dlib+nelder_mead, or dlib
+/// where a sub-space has no continuous variable.
 /// @throws std::invalid_argument for an unknown name, for an algorithm in the wrong place, and for
 ///   an algorithm that cannot search that space, naming one that can
 SearchMethod search_method(std::string_view optimizer, const std::vector<SubSpace>& sub_spaces);
@@ -52,14 +56,15 @@ struct SearchResult {
 
 /// Searches a problem's sub-spaces within a budget:
 /// 1. the starting points;
-/// 2. a global search over the continuous variables in the best start's slice (a sub-space with
-///    given values of the discrete variables);
+/// 2. a global search over the continuous variables in the best point's slice (a sub-space with
+///    given values of the discrete variables), or with dlib over all variables of all sub-spaces;
 /// 3. the slices beside the best point so far: one discrete variable changed at a time, and the
 ///    other sub-spaces with what they share with this one;
 /// 4. a local search in each of the best few slices, ever longer in ever fewer of them (successive
 ///    halving, Jamieson & Talwalkar 2016);
-/// then 2 to 4 again from the best design, until such a round improves nothing or a limit is
-/// reached.
+/// then 2 to 4 again from the best design, with other random numbers (and direct_l_rand for
+/// direct_l), until such a round improves nothing or a limit is reached. `dlib` alone takes all
+/// evaluations after the starting points.
 ///
 /// Runs in the calling thread; equal arguments evaluate the same designs in the same order, unless
 /// a time limit comes into sight of the search (stages shrink to fit into it).

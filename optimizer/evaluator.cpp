@@ -113,6 +113,15 @@ void Evaluator::evaluate_batch(std::span<const SearchPoint> requested,
   }
 }
 
+std::optional<EvaluatedDesign> Evaluator::known(const SearchPoint& point) const {
+  SearchPoint inside = within_bounds(point);
+  const auto found = cache_.find(problem_.key(inside));
+  if (found == cache_.end() || found->second.failed) return std::nullopt;
+  EvaluatedDesign design = found->second.design;
+  design.point = std::move(inside);
+  return design;
+}
+
 std::vector<EvaluatedDesign> Evaluator::best_of_slices() const {
   std::vector<EvaluatedDesign> designs;
   designs.reserve(best_of_slice_.size());
@@ -198,7 +207,8 @@ void Evaluator::assess(Evaluation& evaluation, const std::optional<Race>& race) 
 void Evaluator::commit(Evaluation& evaluation) {
   EvaluationRecord& record = evaluation.record;
   record.index = ++evaluations_;
-  Answer answer{{record.point, record.key, record.cost, record.violation}, 0.0, false};
+  Answer answer{
+      {record.point, record.key, record.cost, record.violation, record.objectives}, 0.0, false};
   ++evaluations_without_improvement_;
   if (!record.failure.empty()) {
     record.cost = std::numeric_limits<double>::quiet_NaN();

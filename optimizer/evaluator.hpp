@@ -129,6 +129,9 @@ class Evaluator {
   /// limit, at the mean time per evaluation so far, comes first.
   int evaluations_left() const;
 
+  /// The design at a point; nothing where it was not evaluated or has no cost.
+  std::optional<EvaluatedDesign> known(const SearchPoint& point) const;
+
   /// The best design so far (see is_better); nothing before an evaluation succeeds.
   const std::optional<EvaluatedDesign>& best() const { return best_; }
 

@@ -46,8 +46,8 @@ const Algorithm& find_algorithm(std::string_view name, int variable_count) {
                       variable_count, variable_count == 0 ? "dlib" : "sbplx"));
     }
   }
-  throw std::invalid_argument(
-      fmt::format("{} is no optimizer: there are {}", name, fmt::join(nlopt_algorithms(), ", ")));
+  throw std::invalid_argument(fmt::format("{} is no optimizer: there are dlib, {}", name,
+                                          fmt::join(nlopt_algorithms(), ", ")));
 }
 
 using NloptPointer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;

@@ -50,7 +50,8 @@ struct EvaluatedDesign {
   SearchPoint point;
   std::string key;  ///< Problem::key of the point
   double cost = std::numeric_limits<double>::infinity();
-  double violation = 0.0;  ///< 0 = the design keeps all limits
+  double violation = 0.0;               ///< 0 = the design keeps all limits
+  std::vector<double> objectives = {};  ///< Assessment::objectives
 };
 
 /// Whether `a` is to be preferred to `b`: a design that keeps the limits to one that does not, of

@@ -30,10 +30,15 @@ class EveryMethod : public testing::TestWithParam<std::string> {
  protected:
   std::vector<TestProblem> problems() const {
     std::vector<TestProblem> problems = solvable_problems();
-    if (GetParam().find("bobyqa") != std::string::npos ||
-        GetParam().find("praxis") != std::string::npos) {
-      std::erase_if(problems, [](const auto& problem) { return problem.box.size() < 2; });
-    }
+    for (TestProblem& problem : mixed_problems()) problems.push_back(std::move(problem));
+    std::erase_if(problems, [](const TestProblem& problem) {
+      try {
+        search_method(GetParam(), problem.sub_spaces());
+        return false;
+      } catch (const std::invalid_argument&) {
+        return true;
+      }
+    });
     return problems;
   }
 };
@@ -64,11 +69,14 @@ TEST_P(EveryMethod, KeepsWithinTheBudgetAndReportsTheBestRecord) {
       for (const EvaluationRecord& record : records) {
         keys.insert(record.key);
         failures += !record.failure.empty();
-        if (record.failure.empty()) lowest = std::min(lowest, record.cost);
+        if (record.failure.empty() && record.violation == 0.0) {
+          lowest = std::min(lowest, record.cost);
+        }
       }
       EXPECT_EQ(keys.size(), records.size()) << "a design was evaluated twice";
       EXPECT_EQ(result.failures, failures);
       ASSERT_TRUE(result.best);
+      if (result.best->violation > 0.0) lowest = result.best->cost;  // none keeps the limits
       EXPECT_EQ(result.best->cost, lowest);
       EXPECT_EQ(problem.function(result.best->point.sub_space, result.best->point.x), lowest);
       ASSERT_FALSE(result.best_designs.empty());
@@ -103,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(ChainedSearch, EveryMethod,
                          testing::Values("auto", "direct_l+sbplx", "direct_l+nelder_mead",
                                          "direct_l+bobyqa", "crs2+sbplx", "crs2+cobyla", "direct_l",
                                          "crs2", "sbplx", "bobyqa", "direct_l_rand+praxis", "mlsl",
-                                         "isres+sbplx", "esch"),
+                                         "isres+sbplx", "esch", "dlib", "dlib+sbplx"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), '+', '_');
@@ -118,11 +126,22 @@ struct Goal {
 };
 
 TEST(ChainedSearch, ComesCloseToKnownOptima) {
-  const std::vector<Goal> goals{
-      {rotated_bowl(), 60, 1e-3},     {rotated_bowl(), 150, 1e-5}, {branin(), 100, 1e-4},
-      {rastrigin(), 300, 1e-4},       {plateau(), 150, 1e-3},      {nan_region(), 150, 1e-4},
-      {throwing_region(), 150, 1e-4}, {levy(4), 150, 1e-3},        {coupled_bowl(), 150, 1e-4},
-      {hartmann(), 150, 5e-3},        {one_variable(), 60, 1e-2}};
+  const std::vector<Goal> goals{{rotated_bowl(), 60, 1e-3},
+                                {rotated_bowl(), 150, 1e-5},
+                                {branin(), 100, 1e-4},
+                                {rastrigin(), 300, 1e-4},
+                                {plateau(), 150, 1e-3},
+                                {nan_region(), 150, 1e-4},
+                                {throwing_region(), 150, 1e-4},
+                                {levy(4), 150, 1e-3},
+                                {coupled_bowl(), 150, 1e-4},
+                                {hartmann(), 150, 5e-3},
+                                {one_variable(), 60, 1e-2},
+                                {sensors(), 300, 5e-2},
+                                {whole_numbers(), 200, 0.1},
+                                {limited(), 150, 1e-2},
+                                {with_noise(sensors()), 300, 0.1},
+                                {failing_sensors(), 300, 5e-2}};
   for (const Goal& goal : goals) {
     SCOPED_TRACE(goal.problem.name);
     TestProblem problem = goal.problem;
@@ -150,7 +169,8 @@ TEST(ChainedSearch, EvaluatesStartsFirstAndEveryChoiceAtTheBestPoint) {
   TestProblem problem = choices();
   std::vector<SearchPoint> points;
   const SearchResult result =
-      search(problem, {.starts = {{3, Eigen::Vector2d(0.1, 0.2)}, {5, Eigen::Vector2d(0.5, 0.5)}},
+      search(problem, {.optimizer = "direct_l+sbplx",
+                       .starts = {{3, Eigen::Vector2d(0.1, 0.2)}, {5, Eigen::Vector2d(0.5, 0.5)}},
                        .evaluation = {.budget = 150, .observer = [&](const auto& record) {
                                         points.push_back(record.point);
                                       }}});
@@ -276,6 +296,15 @@ TEST(SearchMethod, ReadsNames) {
   };
   EXPECT_TRUE(is(search_method("auto", {{"", cube(2, 0.0, 1.0)}}), "direct_l", "sbplx"));
   EXPECT_TRUE(is(search_method("auto", {{"", cube(3, 0.0, 1.0)}}), "direct_l", "nelder_mead"));
+  const SubSpace orders{"", {{"x", 0, 1}, {"order", 0, 23, VariableKind::categorical}}};
+  EXPECT_TRUE(is(search_method("auto", {orders}), "direct_l", "sbplx"));
+  EXPECT_TRUE(is(search_method("auto", {orders, orders}), "dlib", "nelder_mead"));
+  const SubSpace many{"", {{"x", 0, 1}, {"order", 0, 119, VariableKind::categorical}}};
+  EXPECT_TRUE(is(search_method("auto", {many}), "dlib", "nelder_mead"));
+  EXPECT_TRUE(is(search_method("auto", limited().sub_spaces()), "dlib", "nelder_mead"));
+  EXPECT_TRUE(is(search_method("auto", whole_numbers().sub_spaces()), "dlib", ""));
+  EXPECT_TRUE(is(search_method("dlib", whole_numbers().sub_spaces()), "dlib", ""));
+  EXPECT_TRUE(is(search_method("dlib+cobyla", {orders}), "dlib", "cobyla"));
   EXPECT_TRUE(is(search_method("crs2+cobyla", {{"", cube(2, 0.0, 1.0)}}), "crs2", "cobyla"));
   EXPECT_TRUE(is(search_method("crs2", {{"", cube(2, 0.0, 1.0)}}), "crs2", ""));
   EXPECT_TRUE(is(search_method("bobyqa", {{"", cube(2, 0.0, 1.0)}}), "", "bobyqa"));
@@ -284,8 +313,8 @@ TEST(SearchMethod, ReadsNames) {
 TEST(SearchMethod, RefusesOtherNamesBeforeAnyEvaluation) {
   for (const auto* optimizer :
        {"", "Auto", "annealing", "direct_l+", "+sbplx", "direct_l+annealing", "sbplx+direct_l",
-        "direct_l+crs2", "sbplx+cobyla", "direct_l+sbplx+cobyla", "direct_l + sbplx",
-        "auto+sbplx"}) {
+        "direct_l+crs2", "sbplx+cobyla", "direct_l+sbplx+cobyla", "direct_l + sbplx", "auto+sbplx",
+        "dlib+", "dlib+direct_l", "direct_l+dlib", "sbplx+dlib"}) {
     SCOPED_TRACE(optimizer);
     TestProblem problem = choices();
     EXPECT_THROW(search(problem, {.optimizer = optimizer}), std::invalid_argument);
@@ -293,6 +322,21 @@ TEST(SearchMethod, RefusesOtherNamesBeforeAnyEvaluation) {
   }
   TestProblem problem = one_variable();
   EXPECT_THROW(search(problem, {.optimizer = "direct_l+bobyqa"}), std::invalid_argument);
+}
+
+TEST(SearchMethod, NamesDlibWhereASubSpaceHasNoContinuousVariable) {
+  std::vector<SubSpace> spaces = sensors().sub_spaces();
+  spaces.push_back(whole_numbers().sub_spaces().front());
+  for (const auto* optimizer : {"sbplx", "direct_l", "direct_l+sbplx", "dlib+nelder_mead"}) {
+    SCOPED_TRACE(optimizer);
+    try {
+      search_method(optimizer, spaces);
+      FAIL() << "it was taken";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), HasSubstr("needs at least 1 continuous variable, this problem has "
+                                          "0: take dlib"));
+    }
+  }
 }
 
 }  // namespace

@@ -260,9 +260,10 @@ TEST(NloptBackend, RefusesWhatItCannotSolveBeforeItStarts) {
             "bobyqa needs at least 2 continuous variables, this problem has 1: take sbplx");
   EXPECT_EQ(message_of("praxis"),
             "praxis needs at least 2 continuous variables, this problem has 1: take sbplx");
-  EXPECT_EQ(message_of("newuoa"),
-            "newuoa is no optimizer: there are direct_l, direct_l_rand, crs2, mlsl, isres, esch, "
-            "sbplx, nelder_mead, bobyqa, cobyla, praxis");
+  EXPECT_EQ(
+      message_of("newuoa"),
+      "newuoa is no optimizer: there are dlib, direct_l, direct_l_rand, crs2, mlsl, isres, esch, "
+      "sbplx, nelder_mead, bobyqa, cobyla, praxis");
   EXPECT_EQ(message_of("sbplx"), "");
 }
 

@@ -2,6 +2,7 @@
 
 #include "optimizer/problem.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -57,7 +58,8 @@ struct TestProblem : Problem {
         minimum(lowest) {}
 
   std::vector<SubSpace> sub_spaces() const override {
-    std::vector<SubSpace> all;
+    std::vector<SubSpace> all = spaces;
+    if (!all.empty()) return all;
     for (int choice = 0; choice < choices; ++choice)
       all.push_back({fmt::format("{}", choice), box});
     return all;
@@ -65,14 +67,18 @@ struct TestProblem : Problem {
   std::string key(const SearchPoint& point) const override { return key_of(point); }
   Assessment assess(const SearchPoint& point, const GoesOn&) override {
     ++calls;
-    return {.costs = {function(point.sub_space, point.x)}, .violation = excess(point.x)};
+    return {.costs = {function(point.sub_space, point.x)},
+            .violation = excess(point.x),
+            .objectives = objectives(point)};
   }
 
-  /// A point beside the centre of the box where every solvable problem has a cost.
+  /// A point beside the centre of the first box where every solvable problem has a cost.
   Eigen::VectorXd start() const {
-    Eigen::VectorXd x(box.size());
-    for (std::size_t i = 0; i < box.size(); ++i) {
-      x[i] = box[i].lower + 0.6 * (box[i].upper - box[i].lower);
+    const std::vector<Variable>& first = spaces.empty() ? box : spaces.front().variables;
+    Eigen::VectorXd x(first.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      x[i] = first[i].lower + 0.6 * (first[i].upper - first[i].lower);
+      if (!first[i].is_continuous()) x[i] = std::round(x[i]);
     }
     return x;
   }
@@ -80,11 +86,15 @@ struct TestProblem : Problem {
   std::string name;
   std::vector<Variable> box;
   Cost function;
-  double minimum;   ///< the lowest cost; infinity where every evaluation fails
-  int choices = 1;  ///< sub-spaces over the same box
+  double minimum;                     ///< the lowest cost; infinity where every evaluation fails
+  int choices = 1;                    ///< sub-spaces over the same box
+  std::vector<SubSpace> spaces = {};  ///< where there are any, the sub-spaces instead of these
   std::function<std::string(const SearchPoint&)> key_of = exact_key;
   /// By how much a limit is exceeded.
   std::function<double(const Eigen::VectorXd&)> excess = [](const auto&) { return 0.0; };
+  std::function<std::vector<double>(const SearchPoint&)> objectives = [](const auto&) {
+    return std::vector<double>{};
+  };
   Counter calls;
 };
 
@@ -234,21 +244,23 @@ inline TestProblem lowest_in_a_corner() {
           [](int, const Eigen::VectorXd& x) { return x[0] - 2.0 * x[1] + 3.0 * x[2]; }, -6.0};
 }
 
-/// The bowl with noise of standard deviation 0.003 that is drawn anew for every point, but always
-/// the same at the same point; its lowest cost is not below 2 by more than 6 deviations.
-inline TestProblem noisy_bowl() {
-  TestProblem problem = rotated_bowl();
-  problem.name = "noisy_bowl";
-  problem.function = [](int, const Eigen::VectorXd& x) {
+/// A problem with noise of standard deviation 0.003 that is drawn anew for every point, but always
+/// the same at the same point; its lowest cost is not below the problem's by more than 6
+/// deviations.
+inline TestProblem with_noise(TestProblem problem) {
+  problem.name = "noisy_" + problem.name;
+  problem.function = [exact = problem.function](int sub_space, const Eigen::VectorXd& x) {
     std::uint64_t seed = 0;
     for (const double value : x)
       seed = 6364136223846793005u * (seed + std::bit_cast<std::uint64_t>(value)) + 1;
     boost::random::mt19937_64 generator(seed);
-    return rotated_bowl_cost(x) + 0.003 * boost::random::normal_distribution<double>()(generator);
+    return exact(sub_space, x) + 0.003 * boost::random::normal_distribution<double>()(generator);
   };
   problem.minimum -= 0.018;
   return problem;
 }
+
+inline TestProblem noisy_bowl() { return with_noise(rotated_bowl()); }
 
 /// The same cost everywhere.
 inline TestProblem constant() {
@@ -321,6 +333,81 @@ inline std::vector<TestProblem> solvable_problems() {
       coupled_bowl(), hartmann(),        plateau(),    constant(),          choices(),
       nan_region(),   throwing_region(), rosenbrock(), lowest_on_a_bound(), lowest_in_a_corner(),
       noisy_bowl()};
+}
+
+/// Sensors of 2 to 4 planes, each number a sub-space: the planes' places, a number of pixels and a
+/// first guess. Lowest, 5, with 3 planes, 9 pixels and the second guess.
+inline TestProblem sensors() {
+  TestProblem problem{"sensors",
+                      {},
+                      [](int sub_space, const Eigen::VectorXd& x) {
+                        static const Eigen::Vector4d places(4.1, 4.6, 5.0, 4.3);
+                        const int planes = sub_space + 2;
+                        Eigen::VectorXd offset = x.head(planes) - places.head(planes);
+                        const double guess = x[planes + 1];
+                        offset[0] += 0.2 * (1.0 - guess);
+                        const double sum = offset.sum();
+                        const double pixels = (x[planes] - 9.0) / 4.0;
+                        return 5.0 + 0.4 * std::abs(sub_space - 1) + 0.5 * (1.0 - guess) +
+                               offset.squaredNorm() + 2.0 * sum * sum + pixels * pixels;
+                      },
+                      5.0};
+  for (int planes = 2; planes <= 4; ++planes) {
+    SubSpace space{fmt::format("{} planes", planes), {}};
+    for (int i = 1; i <= planes; ++i) {
+      space.variables.push_back({fmt::format("log_z{}", i), 3.5, 5.5});
+    }
+    space.variables.push_back({"pixels", 4.0, 12.0, VariableKind::integer});
+    space.variables.push_back({"guess", 0.0, 1.0, VariableKind::categorical});
+    problem.spaces.push_back(space);
+  }
+  return problem;
+}
+
+/// No continuous variable: lowest, 0, at (21, 6) of the fourth of eight kinds.
+inline TestProblem whole_numbers() {
+  return {"whole_numbers",
+          {{"n", 1.0, 30.0, VariableKind::integer},
+           {"m", 0.0, 20.0, VariableKind::integer},
+           {"kind", 0.0, 7.0, VariableKind::categorical}},
+          [](int, const Eigen::VectorXd& x) {
+            const double n = (x[0] - 21.0) / 10.0;
+            const double m = (x[1] - 6.0) / 8.0;
+            return n * n + m * m + n * m + (x[2] == 3.0 ? 0.0 : 0.2 + 0.1 * x[2]);
+          },
+          0.0};
+}
+
+/// A limit, n (1 - x) <= 4, which the lowest point, n = 6 and x = 1/3, lies on.
+inline TestProblem limited() {
+  TestProblem problem{"limited",
+                      {{"x", 0.0, 1.0}, {"n", 1.0, 8.0, VariableKind::integer}},
+                      [](int, const Eigen::VectorXd& x) {
+                        return 1.0 + 4.0 * (x[0] - 0.2) * (x[0] - 0.2) + 3.0 / x[1];
+                      },
+                      1.5 + 16.0 / 225.0};
+  problem.excess = [](const Eigen::VectorXd& x) {
+    return std::max(0.0, (x[1] * (1.0 - x[0]) - 4.0) / 4.0);
+  };
+  return problem;
+}
+
+/// The sensors without an answer where the first two planes are close to each other, as they are
+/// not at the lowest point.
+inline TestProblem failing_sensors() {
+  TestProblem problem = sensors();
+  problem.name = "failing_sensors";
+  problem.function = [exact = problem.function](int sub_space, const Eigen::VectorXd& x) {
+    if (x[1] - x[0] < 0.2 && x[1] > x[0]) throw std::runtime_error("the planes are too close");
+    if (x[0] > 5.2) return std::numeric_limits<double>::quiet_NaN();
+    return exact(sub_space, x);
+  };
+  return problem;
+}
+
+/// Problems with discrete variables, for every backend that searches these.
+inline std::vector<TestProblem> mixed_problems() {
+  return {sensors(), whole_numbers(), limited(), with_noise(sensors()), failing_sensors()};
 }
 
 }  // namespace nlcwfs
