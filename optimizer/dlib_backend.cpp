@@ -1,16 +1,16 @@
 #include "optimizer/dlib_backend.hpp"
 
+#include "optimizer/latin_hypercube.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <ctime>
-#include <dlib/global_optimization/global_function_search.h>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include <boost/random/mersenne_twister.hpp>
-#include <boost/random/uniform_int_distribution.hpp>
+#include <dlib/global_optimization/global_function_search.h>
 
 namespace nlcwfs {
 namespace {
@@ -65,29 +65,6 @@ struct Box {
     }
     return x;
   }
-
-  /// dlib's own first points are at random, and its model breaks down while a variable has the same
-  /// value in all of them, as happens to variables of few values.
-  std::vector<SearchPoint> latin_hypercube(boost::random::mt19937_64& generator) const {
-    std::vector<std::size_t> order(std::max<std::size_t>(3, size() + 1));
-    const auto count = static_cast<double>(order.size());
-    std::vector<SearchPoint> points(order.size(), {sub_space, Eigen::VectorXd(size())});
-    for (std::size_t i = 0; i < size(); ++i) {
-      std::iota(order.begin(), order.end(), std::size_t{0});
-      for (std::size_t j = order.size() - 1; j > 0; --j) {
-        const boost::random::uniform_int_distribution<std::size_t> up_to_j(0, j);
-        std::swap(order[j], order[up_to_j(generator)]);
-      }
-      const auto& [name, lower, upper, kind] = variables[i];
-      for (std::size_t j = 0; j < order.size(); ++j) {
-        const double unit = (static_cast<double>(order[j]) + 0.5) / count;
-        points[j].x[Eigen::Index(i)] = kind == VariableKind::continuous
-                                           ? lower + unit * (upper - lower)
-                                           : std::floor(lower + unit * (upper - lower + 1.0));
-      }
-    }
-    return points;
-  }
 };
 
 /// One run, which counts what it may still evaluate and knows its worst real cost.
@@ -140,7 +117,11 @@ StageResult minimize_with_dlib(Evaluator& evaluator, const std::vector<SearchPoi
   for (const SubSpace& sub_space : evaluator.sub_spaces()) {
     boxes.push_back({static_cast<int>(boxes.size()), sub_space.variables});
     specifications.push_back(boxes.back().specification());
-    const std::vector<SearchPoint> first = boxes.back().latin_hypercube(generator);
+    // dlib's own first points are at random, and its model breaks down while a variable has the
+    // same value in all of them, as happens to variables of few values.
+    const int count = std::max(3, static_cast<int>(sub_space.variables.size()) + 1);
+    const std::vector<SearchPoint> first =
+        latin_hypercube(sub_space, boxes.back().sub_space, count, generator);
     points.insert(points.end(), first.begin(), first.end());
   }
   const auto box_of = [&](const SearchPoint& point) -> const Box& {

@@ -196,6 +196,11 @@ void Evaluator::assess(Evaluation& evaluation, const std::optional<Race>& race) 
     if (!(std::abs(record.cost) <= largest_cost)) {
       record.failure = fmt::format("the cost is {}", record.cost);
     }
+    for (const double objective : record.objectives) {
+      if (!(std::abs(objective) <= largest_cost)) {
+        record.failure = fmt::format("an objective is {}", objective);
+      }
+    }
   } catch (const std::exception& error) {
     record.failure = fmt::format("exception: {}", error.what());
   } catch (...) {

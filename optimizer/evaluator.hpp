@@ -98,10 +98,10 @@ class Evaluator {
   /// optimizer's rounding, or by one without bounds) is moved onto them first.
   ///
   /// A design without a cost (an exception of any kind, NaN, an infinity or an absolute value above
-  /// 1e100) is a failure and answered with a penalty: worst + 10 max(worst - best, |worst|) of the
-  /// costs known at that time, or 1e6 before there is any. That is worse than the costs to be
-  /// expected, of their order of magnitude so that optimizers that fit models survive it, and the
-  /// same whenever the design is asked for again.
+  /// 1e100, of the cost or of an objective) is a failure and answered with a penalty: worst + 10
+  /// max(worst - best, |worst|) of the costs known at that time, or 1e6 before there is any. That
+  /// is worse than the costs to be expected, of their order of magnitude so that optimizers that
+  /// fit models survive it, and the same whenever the design is asked for again.
   ///
   /// A design that does not keep its limits is answered with its cost and 100 (1 + |cost|) times
   /// its violation on top.

@@ -410,4 +410,40 @@ inline std::vector<TestProblem> mixed_problems() {
   return {sensors(), whole_numbers(), limited(), with_noise(sensors()), failing_sensors()};
 }
 
+/// Zitzler, Deb & Thiele's first problem (2000): two objectives whose front is f2 = 1 - sqrt(f1).
+inline TestProblem zdt1() {
+  TestProblem problem{"zdt1", cube(4, 0.0, 1.0), [](int, const Eigen::VectorXd& x) { return x[0]; },
+                      0.0};
+  problem.objectives = [](const SearchPoint& point) {
+    const double g = 1.0 + 9.0 * point.x.tail(point.x.size() - 1).mean();
+    return std::vector{point.x[0], g * (1.0 - std::sqrt(point.x[0] / g))};
+  };
+  return problem;
+}
+
+/// A problem's cost against the size of the design: its planes, pixels and distances.
+inline TestProblem with_size(TestProblem problem) {
+  problem.objectives = [cost = problem.function](const SearchPoint& point) {
+    return std::vector{cost(point.sub_space, point.x), point.x.sum() + 5.0 * point.sub_space};
+  };
+  return problem;
+}
+
+/// Problems of several objectives, all with discrete variables but the first.
+inline std::vector<TestProblem> pareto_problems() {
+  std::vector<TestProblem> problems{zdt1()};
+  for (TestProblem& problem : mixed_problems()) {
+    problems.push_back(with_size(std::move(problem)));
+  }
+  TestProblem three = with_size(sensors());
+  three.name = "three_objectives";
+  three.objectives = [two = three.objectives](const SearchPoint& point) {
+    std::vector<double> all = two(point);
+    all.push_back(std::abs(point.x[0] - 4.8));
+    return all;
+  };
+  problems.push_back(three);
+  return problems;
+}
+
 }  // namespace nlcwfs
