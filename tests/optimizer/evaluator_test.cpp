@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace nlcwfs {
 namespace {
@@ -221,6 +222,177 @@ TEST(Evaluator, BestDesignsDiffer) {
   std::vector<double> costs;
   for (const EvaluatedDesign& design : evaluator.best_designs(4)) costs.push_back(design.cost);
   EXPECT_THAT(costs, testing::ElementsAre(0.0, 1.0, 2.0, 50.0));
+}
+
+TEST(Evaluator, AnswersABatchAsOneByOne) {
+  TestProblem problem = rotated_bowl();
+  problem.function = [](int, const Eigen::VectorXd& x) {
+    if (x[0] > 4.6 && x[0] < 4.7) throw std::runtime_error("no light");
+    return rotated_bowl_cost(x);
+  };
+  problem.excess = [](const Eigen::VectorXd& x) { return std::max(0.0, 3.7 - x[0]); };
+  std::vector<SearchPoint> points;
+  for (int i = 0; i < 21; ++i) points.push_back(at(3.6 + 0.06 * i, 5.0 + 0.01 * i));
+  points.push_back(points[3]);      // in an earlier batch
+  points.push_back(points.back());  // in the same batch
+  for (const int threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    std::vector<std::string> keys;
+    Evaluator together(problem,
+                       {.observer = [&](const auto& record) { keys.push_back(record.key); }});
+    Evaluator alone(problem, {});
+    const std::vector<double> answers = together.evaluate(points);
+    ASSERT_EQ(answers.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(answers[i], alone(points[i]));
+    EXPECT_EQ(together.evaluations(), 21);
+    EXPECT_EQ(together.cache_hits(), 2);
+    EXPECT_EQ(together.failures(), alone.failures());
+    EXPECT_GT(together.failures(), 0);
+    EXPECT_EQ(together.best()->key, alone.best()->key);
+    std::vector<std::string> requested;
+    for (int i = 0; i < 21; ++i)
+      requested.push_back(exact_key(points[static_cast<std::size_t>(i)]));
+    EXPECT_EQ(keys, requested);
+  }
+}
+
+TEST(Evaluator, EvaluatesTheFirstOfABatchThatOverrunsTheBudget) {
+  TestProblem problem = linear();
+  std::vector<double> costs;
+  Evaluator evaluator(problem, {.budget = 3, .observer = [&](const EvaluationRecord& record) {
+                                  costs.push_back(record.cost);
+                                }});
+  evaluator(at(5.0, 0.0));
+  try {
+    evaluator.evaluate({at(5.0, 0.0), at(4.0, 0.0), at(3.0, 0.0), at(2.0, 0.0), at(1.0, 0.0)});
+    FAIL() << "a fourth evaluation was allowed";
+  } catch (const SearchStopped& stopped) {
+    EXPECT_EQ(stopped.termination, Termination::budget_exhausted);
+  }
+  EXPECT_THAT(costs, testing::ElementsAre(5.0, 4.0, 3.0));
+  EXPECT_EQ(evaluator.best()->cost, 3.0);
+}
+
+TEST(Evaluator, KnowsWhatItEvaluated) {
+  TestProblem problem = linear();
+  problem.function = [](int, const Eigen::VectorXd& x) {
+    return x[0] < 0.0 ? std::numeric_limits<double>::quiet_NaN() : x[0];
+  };
+  problem.excess = [](const Eigen::VectorXd& x) { return x[1]; };
+  problem.objectives = [](const SearchPoint& point) {
+    return std::vector{point.x[0], 2.0 * point.x[0]};
+  };
+  Evaluator evaluator(problem, {});
+  evaluator(at(3.0, 0.5));
+  evaluator(at(-3.0, 0.0));
+  EXPECT_FALSE(evaluator.known(at(4.0, 0.0)));
+  EXPECT_FALSE(evaluator.known(at(-3.0, 0.0))) << "it has no cost";
+  const std::optional<EvaluatedDesign> known = evaluator.known(at(3.0, 0.5));
+  ASSERT_TRUE(known);
+  EXPECT_EQ(known->cost, 3.0);
+  EXPECT_EQ(known->violation, 0.5);
+  EXPECT_THAT(known->objectives, testing::ElementsAre(3.0, 6.0));
+  EXPECT_EQ(evaluator.evaluations(), 2);
+  EXPECT_EQ(evaluator.cache_hits(), 0);
+}
+
+TEST(Evaluator, PrefersDesignsThatKeepTheLimits) {
+  TestProblem problem = linear();
+  problem.excess = [](const Eigen::VectorXd& x) { return std::max(0.0, -x[1]); };
+  Evaluator evaluator(problem, {});
+  EXPECT_DOUBLE_EQ(evaluator(at(1.0, -0.5)), 1.0 + 100.0 * 2.0 * 0.5);
+  EXPECT_DOUBLE_EQ(evaluator(at(-9.0, -0.1)), -9.0 + 100.0 * 10.0 * 0.1);
+  EXPECT_EQ(evaluator.best()->cost, -9.0) << "it is closer to its limit";
+  evaluator(at(-20.0, -0.2));
+  EXPECT_EQ(evaluator.best()->cost, -9.0) << "cheaper, but farther from its limit";
+  EXPECT_EQ(evaluator(at(50.0, 0.0)), 50.0);
+  EXPECT_EQ(evaluator.best()->cost, 50.0) << "the first that keeps the limits";
+  evaluator(at(40.0, 0.0));
+  EXPECT_EQ(evaluator.best()->cost, 40.0);
+  std::vector<double> costs;
+  for (const EvaluatedDesign& design : evaluator.best_designs(9)) costs.push_back(design.cost);
+  EXPECT_THAT(costs, testing::ElementsAre(40.0, -9.0));
+}
+
+TEST(Evaluator, StopsAtItsTarget) {
+  TestProblem problem = linear();
+  problem.excess = [](const Eigen::VectorXd& x) { return std::max(0.0, -x[1]); };
+  Evaluator evaluator(problem, {.target = 2.0});
+  evaluator(at(1.0, -1.0));  // does not keep the limits
+  evaluator(at(2.5, 0.0));
+  evaluator(at(2.0, 0.0));
+  EXPECT_EQ(evaluator(at(2.5, 0.0)), 2.5);  // known
+  try {
+    evaluator(at(0.0, 0.0));
+    FAIL() << "the search went on";
+  } catch (const SearchStopped& stopped) {
+    EXPECT_EQ(stopped.termination, Termination::target_reached);
+  }
+  EXPECT_EQ(evaluator.evaluations(), 3);
+}
+
+TEST(Evaluator, StopsWhereItStagnates) {
+  TestProblem problem = linear();
+  Evaluator evaluator(problem, {.stagnation = 3});
+  for (const double x : {5.0, 6.0, 7.0, 4.0, 4.5, 4.6}) evaluator(at(x, 0.0));
+  evaluator(at(5.0, 0.0));  // known: no evaluation
+  evaluator(at(4.0, 1.0));  // the same cost is no improvement
+  try {
+    evaluator(at(0.0, 0.0));
+    FAIL() << "the search went on";
+  } catch (const SearchStopped& stopped) {
+    EXPECT_EQ(stopped.termination, Termination::stagnated);
+  }
+  EXPECT_EQ(evaluator.evaluations(), 7);
+}
+
+/// The bowl on 16 screens, which scatter by 0.3 and of which each prefers another point a little;
+/// asks after 2, 4 and 8 screens whether to go on.
+struct SampledBowl : TestProblem {
+  SampledBowl() : TestProblem(rotated_bowl()) {}
+
+  Assessment assess(const SearchPoint& point, const GoesOn& goes_on) override {
+    Assessment assessment{.costs = {}, .violation = 0.0};
+    for (int screen = 0; screen < 16; ++screen) {
+      boost::random::mt19937_64 generator(static_cast<std::uint64_t>(screen));
+      boost::random::normal_distribution<double> normal;
+      const double level = 0.3 * normal(generator);
+      const double slope = 0.1 * normal(generator);
+      assessment.costs.push_back(rotated_bowl_cost(point.x) + level + slope * (point.x[0] - 4.4));
+      ++samples;
+      const bool asks = screen == 1 || screen == 3 || screen == 7;
+      if (asks && goes_on && !goes_on(assessment.costs)) break;
+    }
+    return assessment;
+  }
+
+  Counter samples;
+};
+
+TEST(Evaluator, RacesSaveSamplesAndKeepTheWinner) {
+  std::vector<SearchPoint> points;
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 8; ++j) points.push_back(at(3.9 + 0.13 * i, 4.6 + 0.13 * j));
+  }
+  SampledBowl raced;
+  int given_up = 0;
+  std::size_t samples_reported = 0;
+  Evaluator with_races(raced, {.race_significance = 0.05, .observer = [&](const auto& record) {
+                                 given_up += record.given_up;
+                                 samples_reported += record.samples;
+                                 EXPECT_EQ(record.given_up, record.samples < 16);
+                               }});
+  SampledBowl complete;
+  Evaluator without(complete, {});
+  with_races.evaluate(points);
+  without.evaluate(points);
+  EXPECT_EQ(complete.samples, 64 * 16);
+  EXPECT_LT(raced.samples, complete.samples / 2);
+  EXPECT_EQ(static_cast<std::size_t>(raced.samples), samples_reported);
+  EXPECT_GT(given_up, 32);
+  EXPECT_EQ(with_races.best()->key, without.best()->key);
+  EXPECT_EQ(with_races.best()->cost, without.best()->cost);
+  EXPECT_EQ(with_races.best_designs(64).size(), static_cast<std::size_t>(64 - given_up));
 }
 
 TEST(Termination, HasNames) {
