@@ -29,18 +29,6 @@ bool is_within(double lower, double upper, double value) {
 
 int pair_count(int planes) { return (planes + 1) / 2; }
 
-/// Every order in which `planes` of the numbered planes of a symmetric layout can be visited.
-std::vector<VisitingOrder> all_orders(int planes) {
-  VisitingOrder numbers(static_cast<std::size_t>(2 * pair_count(planes)));
-  std::iota(numbers.begin(), numbers.end(), 1);
-  std::vector<VisitingOrder> orders;
-  do {
-    // With an odd number, the plane that is left out stands last, in one permutation of each order.
-    orders.emplace_back(numbers.begin(), numbers.begin() + planes);
-  } while (std::ranges::next_permutation(numbers).found);
-  return orders;
-}
-
 std::vector<double> visited(const VisitingOrder& order, const std::vector<double>& pairs) {
   std::vector<double> planes;
   planes.reserve(order.size());
@@ -174,6 +162,17 @@ std::span<const DesignProperty> design_properties() {
                      [](const Design& d) { return d.detector.exposure; },
                      [](Design& d, double v) { d.detector.exposure = v; }}};
   return properties;
+}
+
+std::vector<VisitingOrder> all_orders(int planes) {
+  VisitingOrder numbers(static_cast<std::size_t>(2 * pair_count(planes)));
+  std::iota(numbers.begin(), numbers.end(), 1);
+  std::vector<VisitingOrder> orders;
+  do {
+    // With an odd number, the plane that is left out stands last, in one permutation of each order.
+    orders.emplace_back(numbers.begin(), numbers.begin() + planes);
+  } while (std::ranges::next_permutation(numbers).found);
+  return orders;
 }
 
 std::optional<SymmetricPlanes> symmetric_planes(const std::vector<double>& planes) {

@@ -56,6 +56,10 @@ inline constexpr std::string_view pair_names[] = {"z_near", "z_far", "z_third"};
 /// 4 = +Zfar (Letchev et al. 2022 call them P1 to P4), 5 = -Zthird, 6 = +Zthird.
 using VisitingOrder = std::vector<int>;
 
+/// Every visiting order of a number of planes in a symmetric layout.
+/// @pre planes is 2 to 6
+std::vector<VisitingOrder> all_orders(int planes);
+
 /// Planes of a symmetric layout: the distances of their pairs, nearest first, and their order.
 struct SymmetricPlanes {
   std::vector<double> pairs;  ///< m, ascending

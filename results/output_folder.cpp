@@ -56,6 +56,12 @@ void OutputFolder::require_free(const std::filesystem::path& requested) {
   }
 }
 
+OutputFolder OutputFolder::of_earlier_run(const std::filesystem::path& path) {
+  OutputFolder folder;
+  folder.path_ = path;
+  return folder;
+}
+
 void OutputFolder::write(std::string_view name, std::string_view text) const {
   const std::filesystem::path target = file(name);
   std::filesystem::path partial = target;

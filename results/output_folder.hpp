@@ -7,7 +7,8 @@
 
 namespace nlcwfs {
 
-/// Where a run writes to: a folder of its own, which never existed before.
+/// Where a run writes to: a folder of its own, which never existed before unless the run
+/// goes on with an interrupted one.
 class OutputFolder {
  public:
   /// Makes the folder.
@@ -21,6 +22,10 @@ class OutputFolder {
   /// @throws InputError where it exists
   static void require_free(const std::filesystem::path& requested);
 
+  /// The folder of an earlier run, to go on in.
+  /// @pre it exists
+  static OutputFolder of_earlier_run(const std::filesystem::path& path);
+
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file(std::string_view name) const { return path_ / name; }
 
@@ -29,6 +34,8 @@ class OutputFolder {
   void write(std::string_view name, std::string_view text) const;
 
  private:
+  OutputFolder() = default;
+
   std::filesystem::path path_;
 };
 

@@ -79,6 +79,7 @@ po::options_description general_options() {
   add("config", "FILE", "read a configuration file; of several, the later wins");
   add("preset", "NAME", preset_text);
   add("output", "DIR", "write the results there [results/<command>-<n>]");
+  add("resume", "DIR", "sweep: go on with the interrupted run in this folder, as it is configured");
   add("threads", "N", "use this many cores, 0 = all [0]");
   add_flag("quiet", "print no progress");
   add_flag("verify", "advise: simulate the design on fresh screens, as the section verify says");
@@ -175,6 +176,32 @@ std::string parse_command(const std::string& value, const std::string& earlier,
   return value;
 }
 
+/// The configuration of the run to go on with.
+/// @param configured  whether the command line has more than that run's folder
+Configuration resumed_configuration(const CommandLine& command_line, bool configured) {
+  const std::filesystem::path& folder = *command_line.resume;
+  const std::string shown = one_line(folder.string());
+  const auto command = std::ranges::find(commands(), command_line.command, &Command::name);
+  if (!command->resumable) {
+    throw InputError("--resume", shown,
+                     fmt::format("{} cannot go on with a run; begin it anew with --config {}",
+                                 command->name, one_line((folder / "config.cfg").string())));
+  }
+  if (configured) {
+    throw InputError("--resume", shown,
+                     "goes on in that folder as its config.cfg says; nothing may be with it but "
+                     "--threads and --quiet");
+  }
+  if (!std::filesystem::is_regular_file(folder / "config.cfg") ||
+      !std::filesystem::is_regular_file(folder / "archive.sqlite")) {
+    throw InputError("--resume", shown,
+                     "has no config.cfg and archive.sqlite; name the folder of an interrupted run");
+  }
+  Configuration configuration;
+  configuration.read_file(folder / "config.cfg");
+  return configuration;
+}
+
 int parse_threads(const std::string& value) {
   const auto threads = parse_integer(value);
   if (!threads || *threads < 0 || *threads > 4096) {
@@ -190,6 +217,7 @@ const std::vector<Command>& commands() {
       {"evaluate", "measure one design: wavefront error, loops and time with standard errors"},
       {"screens", "make phase screens: a FITS cube and its statistics"},
       {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
+      {"sweep", "try every design of a grid: maps of all figures, and the best, verified", true},
       {"optimize", "find a telescope's best design and verify it on fresh screens"},
       {"advise", "tell a telescope's planes from the scaling law; --verify simulates them"},
       {"benchmark", "time a configuration on this machine; writes files only with --output"}};
@@ -234,6 +262,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       preset = value;
     } else if (key == "output") {
       result.output = value;
+    } else if (key == "resume") {
+      result.resume = value;
     } else if (key == "threads") {
       result.threads = parse_threads(value);
     } else {
@@ -249,6 +279,11 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   if (result.verify && result.command != "advise") {
     throw InputError("command line", "--verify",
                      fmt::format("only advise takes it; leave it away with {}", result.command));
+  }
+  if (result.resume) {
+    const bool configured = preset || !files.empty() || !values.empty() || result.output;
+    result.configuration = resumed_configuration(result, configured);
+    return result;
   }
   if (preset) result.configuration.apply_preset(*preset);
   for (const std::string& file : files) result.configuration.read_file(file);

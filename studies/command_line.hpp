@@ -14,6 +14,7 @@ namespace nlcwfs {
 struct Command {
   std::string name;
   std::string description;  ///< one line
+  bool resumable = false;   ///< takes --resume
 };
 
 /// Every command, in the order of the help.
@@ -24,6 +25,7 @@ struct CommandLine {
   std::string command;  ///< one of commands(); empty only with help or version
   Configuration configuration;
   std::optional<std::filesystem::path> output;  ///< directory for the results
+  std::optional<std::filesystem::path> resume;  ///< folder of the run to go on with
   int threads = 0;                              ///< 0 = all cores
   bool quiet = false;
   bool verify = false;   ///< simulate what advise predicts; only for advise

@@ -462,6 +462,29 @@ std::vector<ConfigurationKey> make_keys() {
        .bounds = above(0),
        .example = "90s or 30min"}};
   add_variations(keys, "search", Kind::domain);
+  keys.insert(
+      keys.end(),
+      {{.name = "sweep.layout",
+        .kind = Kind::choice,
+        .default_text = "symmetric",
+        .description =
+            "Layout of the designs of a sweep, as search.layout. Every key below that is "
+            "set is an axis of its grid; distances that are not are those of "
+            "sensor.planes, what else is not set is not varied.",
+        .choices = {"symmetric", "free"}},
+       {.name = "sweep.plane_count",
+        .kind = Kind::axis,
+        .description = "Numbers of planes. Not set: as many as sensor.planes, and in a free layout "
+                       "those that have a key beyond.",
+        .bounds = from_to(2, 6),
+        .example = "2,3,4",
+        .element = Kind::integer},
+       {.name = "sweep.order",
+        .kind = Kind::orders,
+        .description = "Orders in which a symmetric layout is visited, as search.order. Not set: "
+                       "the order of sensor.planes.",
+        .example = "all or 3412,1234"}});
+  add_variations(keys, "sweep", Kind::axis);
   const std::vector<ConfigurationKey> others{
       {.name = "baseline.planes",
        .kind = Kind::length_list,

@@ -8,9 +8,11 @@ namespace nlcwfs {
 
 RunRecord::RunRecord(const CommandLine& command_line)
     : command_line_(command_line),
-      folder_(command_line.output, command_line.command),
-      archive_(folder_.file("archive.sqlite")) {
-  folder_.write("config.cfg", command_line.configuration.dump());
+      folder_(command_line.resume ? OutputFolder::of_earlier_run(*command_line.resume)
+                                  : OutputFolder(command_line.output, command_line.command)),
+      archive_(command_line.resume ? Archive::reopened(folder_.file("archive.sqlite"))
+                                   : Archive(folder_.file("archive.sqlite"))) {
+  if (!command_line.resume) folder_.write("config.cfg", command_line.configuration.dump());
 }
 
 void RunRecord::write_summary(const nlohmann::ordered_json& results) const {

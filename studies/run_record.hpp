@@ -13,8 +13,8 @@ namespace nlcwfs {
 /// What every run leaves in its output folder: config.cfg, archive.sqlite, summary.json.
 class RunRecord {
  public:
-  /// Makes the folder with the configuration and an empty archive. Call it when nothing in the
-  /// input can be wrong any more.
+  /// Makes the folder with the configuration and an empty archive; with --resume it takes those of
+  /// the earlier run. Call it when nothing in the input can be wrong any more.
   explicit RunRecord(const CommandLine& command_line);
 
   const OutputFolder& folder() const { return folder_; }

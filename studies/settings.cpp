@@ -56,6 +56,45 @@ InitialGuess initial_guess_of(const Configuration& configuration, std::string_vi
       configuration, key, {{"flat", InitialGuess::flat}, {"centroid", InitialGuess::centroid}});
 }
 
+/// The orders of each number of planes that a sweep has: the given ones, or those of the planes
+/// that stand.
+/// @param refuse  throws for a key, saying what of sensor.planes could have stood for it
+template <class Refuse>
+std::vector<VisitingOrder> sweep_orders(const Configuration& configuration,
+                                        const std::vector<int>& plane_counts,
+                                        const std::optional<SymmetricPlanes>& standing,
+                                        const Refuse& refuse) {
+  const std::vector<VisitingOrder> given = configuration.orders("sweep.order");
+  std::vector<VisitingOrder> orders = given;
+  for (const int planes : plane_counts) {
+    const auto count = static_cast<std::size_t>(planes);
+    if (std::ranges::count(given, count, &VisitingOrder::size) > 0) continue;
+    if (!given.empty()) {
+      throw InputError("sweep.order", configuration.value_text("sweep.order"),
+                       fmt::format("has no order of {} planes; add one, or take all", planes));
+    }
+    if (configuration.is_set("sweep.order")) {
+      std::ranges::copy(all_orders(planes), std::back_inserter(orders));
+      continue;
+    }
+    VisitingOrder order = standing ? standing->order : VisitingOrder();
+    if (order.size() > count) std::erase_if(order, [&](int number) { return number > planes; });
+    if (order.size() != count) {
+      refuse("sweep.order", fmt::format("order of {} planes", planes));
+    }
+    orders.push_back(std::move(order));
+  }
+  const auto unused = std::ranges::find_if(orders, [&](const VisitingOrder& order) {
+    return std::ranges::count(plane_counts, static_cast<int>(order.size())) == 0;
+  });
+  if (unused != orders.end()) {
+    throw InputError("sweep.order", fmt::format("{}", fmt::join(*unused, "")),
+                     fmt::format("an order of {} planes, see sweep.plane_count",
+                                 fmt::join(plane_counts, " or ")));
+  }
+  return orders;
+}
+
 bool is_matched(const Configuration& configuration) {
   return configuration.choice("simulation.truth") == "matched";
 }
@@ -398,6 +437,96 @@ void set_design(Configuration& configuration, const SensorDesign& design, const 
   if (space.varies("tolerance")) {
     set("reconstruction.tolerance", fmt::format("{}", reconstruction.tolerance));
   }
+}
+
+DesignGrid sweep_grid_of(const Configuration& configuration, const Telescope& telescope,
+                         SensorDesign base) {
+  const std::optional<SymmetricPlanes> pairs = symmetric_planes(base.planes);
+  DesignSpaceOptions options{
+      .base = std::move(base),
+      .layout = choice_of<Layout>(configuration, "sweep.layout",
+                                  {{"symmetric", Layout::symmetric}, {"free", Layout::free}}),
+      .plane_counts = {},
+      .section = "sweep"};
+  const bool is_symmetric = options.layout == Layout::symmetric;
+  const std::vector<double>& planes = options.base.planes;
+
+  std::vector<std::string> axes;
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (!key.name.starts_with("sweep.") || key.kind != Kind::axis) continue;
+    const auto values = configuration.axis(key.name);
+    if (!values) continue;
+    axes.push_back(key.name.substr(std::string_view("sweep.").size()));
+    if (key.name == "sweep.plane_count") {
+      options.plane_counts = whole_numbers(key.name, *values);
+    } else {
+      options.domains.emplace(axes.back(), *values);
+    }
+  }
+  if (axes.empty() && !configuration.is_set("sweep.order")) {
+    throw InputError("sweep.z_near", "not set",
+                     "a sweep needs an axis, such as --sweep.z_near 5km:100km:24, or another key "
+                     "of the section sweep");
+  }
+
+  // What stands where no axis says otherwise.
+  std::map<std::string, double, std::less<>> given;
+  std::vector<std::string> names(std::begin(pair_names), std::end(pair_names));
+  if (is_symmetric) {
+    for (std::size_t i = 0; pairs && i < pairs->pairs.size(); ++i) {
+      given.emplace(names[i], pairs->pairs[i]);
+    }
+  } else {
+    names = {"z1", "z2", "z3", "z4", "z5", "z6"};
+    for (std::size_t i = 0; i < std::min(planes.size(), names.size()); ++i) {
+      given.emplace(names[i], planes[i]);
+    }
+  }
+  if (options.plane_counts.empty()) {
+    if (planes.size() < 2 || planes.size() > 6) {
+      throw InputError("sensor.planes", configuration.value_text("sensor.planes"),
+                       "2 to 6 planes in a sweep");
+    }
+    auto count = static_cast<int>(planes.size());
+    for (int i = 0; !is_symmetric && i < static_cast<int>(names.size()); ++i) {
+      if (options.domains.contains(names[static_cast<std::size_t>(i)])) {
+        count = std::max(count, i + 1);
+      }
+    }
+    options.plane_counts = {count};
+  }
+  const auto refuse = [&](std::string_view key, std::string_view needed) {
+    if (is_symmetric && !pairs) {
+      throw InputError("sensor.planes", configuration.value_text("sensor.planes"),
+                       fmt::format("pairs -z, +z, whose {} the sweep keeps; or set {}, or "
+                                   "sweep.layout = free",
+                                   needed, key));
+    }
+    throw InputError(key, "not set",
+                     fmt::format("sensor.planes has no such {}; give one or more", needed));
+  };
+  const int most = std::ranges::max(options.plane_counts);
+  const int needed = std::min(is_symmetric ? (most + 1) / 2 : most, static_cast<int>(names.size()));
+  for (int i = 0; i < needed; ++i) {
+    const std::string& name = names[static_cast<std::size_t>(i)];
+    if (options.domains.contains(name)) continue;
+    const auto known = given.find(name);
+    if (known == given.end())
+      refuse("sweep." + name, is_symmetric ? "distance of a pair" : "plane");
+    options.domains.emplace(name, std::vector<double>{known->second});
+  }
+  if (is_symmetric) {
+    options.orders = sweep_orders(configuration, options.plane_counts, pairs, refuse);
+    const bool has_choice = options.orders.size() > options.plane_counts.size();
+    if (configuration.is_set("sweep.order") && (has_choice || options.plane_counts.size() == 1)) {
+      // Beside plane_count, which it goes with.
+      axes.insert(axes.begin() + (configuration.is_set("sweep.plane_count") ? 1 : 0), "order");
+    }
+  } else if (configuration.is_set("sweep.order")) {
+    throw InputError("sweep.order", configuration.value_text("sweep.order"),
+                     "is for sweep.layout = symmetric; a free layout is visited as numbered");
+  }
+  return {telescope, options, axes};
 }
 
 int truth_samples(const Configuration& configuration) {

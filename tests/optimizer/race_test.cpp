@@ -27,10 +27,10 @@ struct Pair {
     }
   }
 
-  /// The samples after which a race gives the design up, with looks at 2, 4, 8 and 16; 0 = never.
+  /// The samples after which a race gives the design up, with looks at 4 and 8; 0 = never.
   std::size_t given_up_after(double significance) const {
     const Race race(rival, significance);
-    for (std::size_t count = 2; count <= samples; count *= 2) {
+    for (std::size_t count = 4; count < samples; count *= 2) {
       if (!race.goes_on(std::span(design).first(count))) return count;
     }
     return 0;

@@ -2,6 +2,7 @@
 
 #include "tests/scratch_folder.hpp"
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -114,6 +115,60 @@ TEST_F(ArchiveTest, AFailureHasAReasonAndNullsForWhatItLacks) {
   // What a trade study asks for: the best design, failures aside.
   EXPECT_THAT(query("archive.sqlite", "SELECT min(cost) < 0.4, count(cost) FROM evaluations"),
               ElementsAre(ElementsAre("1", "1")));
+}
+
+TEST_F(ArchiveTest, GivesBackWhatWasAdded) {
+  ArchivedEvaluation failed = success();
+  failed.cost = std::numeric_limits<double>::quiet_NaN();
+  failed.failure = "no light";
+  failed.performance = "";
+  failed.key = "-1,1;64";
+  {
+    Archive archive("archive.sqlite");
+    archive.add(success());
+    archive.add(failed);
+  }
+  Archive archive = Archive::reopened("archive.sqlite");
+  archive.add(failed);
+  const std::vector<ArchivedEvaluation> all = archive.evaluations();
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].cost, success().cost) << "to the last bit";
+  EXPECT_TRUE(std::isnan(all[1].cost));
+  const std::vector<ArchivedEvaluation> expected{success(), failed, failed};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].stage, expected[i].stage);
+    EXPECT_EQ(all[i].key, expected[i].key);
+    EXPECT_EQ(all[i].design, expected[i].design);
+    EXPECT_EQ(all[i].failure, expected[i].failure);
+    EXPECT_EQ(all[i].seconds, expected[i].seconds);
+    EXPECT_EQ(all[i].performance, expected[i].performance);
+  }
+}
+
+TEST_F(ArchiveTest, GoesOnWithNoOtherTable) {
+  const auto failure_of_reopening = [](const std::string& path) -> std::string {
+    try {
+      Archive::reopened(path);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(failure_of_reopening("none.sqlite"), StartsWith("cannot open the archive none"));
+  EXPECT_FALSE(std::filesystem::exists("none.sqlite"));
+
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open("old.sqlite", &database), SQLITE_OK);
+  const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> close(database, sqlite3_close);
+  ASSERT_EQ(sqlite3_exec(database, "CREATE TABLE evaluations (id INTEGER PRIMARY KEY, stage TEXT)",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  EXPECT_THAT(failure_of_reopening("old.sqlite"),
+              AllOf(StartsWith("cannot go on with the archive old.sqlite: its table has the "
+                               "columns 'id,stage'"),
+                    HasSubstr("this version's 'id,")));
+  std::ofstream("text") << std::string(200, '.');
+  EXPECT_THAT(failure_of_reopening("text"), HasSubstr("not a database"));
 }
 
 TEST_F(ArchiveTest, NamesPathAndCauseWhereItCannotBeMade) {

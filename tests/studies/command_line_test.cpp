@@ -103,17 +103,15 @@ TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
 
 TEST(CommandLine, AsksForACommand) {
   const std::string message =
-      "command = (nothing): one of evaluate, screens, scale, optimize, advise, benchmark; nlcwfs "
-      "--help "
-      "explains them";
+      "command = (nothing): one of evaluate, screens, scale, sweep, optimize, advise, benchmark; "
+      "nlcwfs --help explains them";
   EXPECT_EQ(parse_message({}), message);
   EXPECT_EQ(parse_message({"--quiet"}), message);
   EXPECT_EQ(message_of([] { parse_command_line(0, std::vector<const char*>{nullptr}.data()); }),
             message);
   EXPECT_EQ(parse_message({"optimise"}),
-            "command = optimise: one of evaluate, screens, scale, optimize, advise, benchmark; did "
-            "you mean "
-            "optimize?");
+            "command = optimise: one of evaluate, screens, scale, sweep, optimize, advise, "
+            "benchmark; did you mean optimize?");
   EXPECT_THAT(parse_message({""}), StartsWith("command = (nothing): one of "));
 }
 
@@ -156,7 +154,7 @@ TEST(CommandLine, SaysWhatIsMissing) {
            {"evaluate", "--screens.seed", "--screens.count", "3"}}) {
     EXPECT_EQ(parse_message(arguments), message);
   }
-  for (const char* option : {"--config", "--preset", "--output", "--threads"}) {
+  for (const char* option : {"--config", "--preset", "--output", "--resume", "--threads"}) {
     EXPECT_EQ(parse_message({"evaluate", option}),
               std::string(option) + " = (nothing): a value must follow");
   }
@@ -178,6 +176,43 @@ TEST(CommandLine, OnlyAdviseVerifiesOnDemand) {
     if (command.name == "advise") continue;
     EXPECT_EQ(parse_message({"--verify", command.name.c_str()}),
               "command line = --verify: only advise takes it; leave it away with " + command.name);
+  }
+}
+
+TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
+  Configuration earlier;
+  earlier.set("screens.count", "3", "in a test");
+  const std::filesystem::path folder =
+      std::filesystem::path(write_file("config.cfg", earlier.dump())).parent_path();
+  write_file("archive.sqlite", "");
+  const std::string name = folder.string();
+  const CommandLine resumed =
+      parse({"sweep", "--resume", name.c_str(), "--threads", "2", "--quiet"});
+  EXPECT_THAT(resumed.resume, Optional(folder));
+  EXPECT_EQ(resumed.configuration, earlier);
+  EXPECT_EQ(resumed.threads, 2);
+  EXPECT_TRUE(resumed.quiet);
+
+  for (const auto& more : std::vector<std::vector<const char*>>{{"--screens.count", "3"},
+                                                                {"--config", "any.cfg"},
+                                                                {"--preset", "paper"},
+                                                                {"--output", "elsewhere"}}) {
+    std::vector<const char*> arguments{"sweep", "--resume", name.c_str()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_THAT(parse_message(arguments),
+                AllOf(StartsWith("--resume = "), HasSubstr("goes on in that folder")))
+        << more.front();
+  }
+  EXPECT_THAT(parse_message({"sweep", "--resume", "no/such/folder"}),
+              StartsWith("--resume = no/such/folder: has no config.cfg and archive.sqlite; "));
+}
+
+TEST(CommandLine, OnlySomeCommandsResume) {
+  for (const Command& command : commands()) {
+    if (command.resumable) continue;
+    EXPECT_EQ(parse_message({command.name.c_str(), "--resume", "run"}),
+              "--resume = run: " + command.name +
+                  " cannot go on with a run; begin it anew with --config run/config.cfg");
   }
 }
 
@@ -224,7 +259,7 @@ TEST(CommandLine, HelpListsCommandsOptionsAndKeysIn100Columns) {
   for (const Command& command : commands()) {
     EXPECT_THAT(help, AllOf(HasSubstr("\n  " + command.name), HasSubstr(command.description)));
   }
-  for (const char* option : {"config", "preset", "output", "threads", "quiet", "verify",
+  for (const char* option : {"config", "preset", "output", "resume", "threads", "quiet", "verify",
                              "dump-config", "help", "version"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n  --") + option + " "));
   }

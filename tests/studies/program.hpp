@@ -33,7 +33,8 @@ class Program : public ScratchFolder {
                                  "[simulation]\npupil_samples = 32\n"
                                  "[screens]\ncount = 2\n"
                                  "[verify]\nscreens = 2\n"
-                                 "[search]\nbudget = 6\n";
+                                 "[search]\nbudget = 6\n"
+                                 "[sweep]\nz_near = 30km,60km\n";
   }
 
   /// @param shell  what stands before the program in the shell's command

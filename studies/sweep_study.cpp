@@ -1,0 +1,453 @@
+#include "model/input_error.hpp"
+#include "objectives/design_grid.hpp"
+#include "optimizer/problem.hpp"
+#include "results/csv_table.hpp"
+#include "results/design_summary.hpp"
+#include "studies/design_text.hpp"
+#include "studies/interrupt.hpp"
+#include "studies/progress_line.hpp"
+#include "studies/run_record.hpp"
+#include "studies/settings.hpp"
+#include "studies/studies.hpp"
+#include "studies/trial_summary.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+namespace nlcwfs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+/// Designs that are tried together: enough for many cores, as each is parallel in itself, and few
+/// enough that neighbours on the grid, which share planes, find each other's images.
+constexpr std::size_t batch_size = 16;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What the configuration asks for, checked as a whole before anything is written.
+struct Task {
+  explicit Task(const Configuration& configuration);
+
+  Telescope telescope;
+  Seeing seeing;
+  DesignGrid grid;
+  std::vector<std::string> notes;
+  DesignTrial trial;
+  DesignTrial verification;
+};
+
+/// Whether the grid's designs differ in their pixels across the pupil.
+bool pixels_vary(const Configuration& configuration) {
+  const auto pixels = configuration.axis("sweep.pupil_pixels");
+  return pixels && pixels->size() > 1;
+}
+
+Task::Task(const Configuration& configuration)
+    : telescope(telescope_of(configuration)),
+      seeing(seeing_of(configuration, telescope)),
+      grid(sweep_grid_of(
+          configuration, telescope,
+          simulated_design(design_of(configuration), telescope,
+                           simulation_options_of(configuration, "search.precision").truth,
+                           truth_samples(configuration)))),
+      trial(trial_of(configuration, "search.precision", notes, pixels_vary(configuration))),
+      verification(verification_trial_of(configuration, pixels_vary(configuration))) {
+  try {
+    verification.checked(design_of(configuration));
+  } catch (const InputError& error) {
+    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
+                     fmt::format("the finer truth does not suit the design: {}", error.what()));
+  }
+  if (!configuration.text("screens.file").empty()) {
+    notes.emplace_back("the verification is on simulated screens of the configured seeing");
+  }
+}
+
+/// How a design of the grid did, as the archive has it too.
+struct Outcome {
+  MeanAndError cost{};
+  double violation = 0.0;
+  double elapsed = 0.0;  ///< of the sweep when it was known, s, earlier runs included
+  std::vector<MeanAndError> metrics = {};  ///< in the order of performance_metrics()
+  std::string failure = {};                ///< why there is none of these
+};
+
+/// JSON has no number for what is not finite.
+double number_of(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+MeanAndError mean_and_error_of(const Json& json) {
+  return {number_of(json.at("mean")), number_of(json.at("standard_error"))};
+}
+
+Outcome outcome_of(const ArchivedEvaluation& evaluation) {
+  if (!evaluation.failure.empty()) return {.failure = evaluation.failure};
+  const Json performance = Json::parse(evaluation.performance);
+  Outcome outcome{.cost = mean_and_error_of(performance.at("cost")),
+                  .violation = number_of(performance.at("violation")),
+                  .elapsed = performance.at("elapsed_seconds")};
+  for (const PerformanceMetric& metric : performance_metrics()) {
+    outcome.metrics.push_back(mean_and_error_of(performance.at(std::string(metric.name))));
+  }
+  return outcome;
+}
+
+/// Tries a design; one that cannot be tried has a failure.
+/// @param elapsed_before  of the sweep before `sweep_start`, s
+ArchivedEvaluation evaluation_of(const GridDesign& design, const Task& task,
+                                 Clock::time_point sweep_start, double elapsed_before) {
+  const auto start = Clock::now();
+  ArchivedEvaluation evaluation{
+      .stage = "sweep",
+      .design = to_json(design.design, task.telescope, task.seeing.fried_parameter).dump(),
+      .cost = std::numeric_limits<double>::quiet_NaN(),
+      .failure = {},
+      .seconds = 0.0,
+      .performance = {},
+      .key = design.key};
+  try {
+    const TriedDesign tried = task.trial.run(design.design);
+    const MeanAndError cost = mean_and_standard_error(tried.costs);
+    if (!std::isfinite(cost.mean)) {
+      throw std::runtime_error(fmt::format("the cost is {}", cost.mean));
+    }
+    evaluation.cost = cost.mean;
+    // With all that the grid's tables have of a design, so that they can be made of the archive.
+    Json performance = to_json(pooled(tried.performances));
+    performance["cost"] = to_json(cost);
+    performance["violation"] = tried.violation;
+    performance["elapsed_seconds"] = elapsed_before + seconds_since(sweep_start);
+    evaluation.performance = performance.dump();
+  } catch (const std::bad_alloc&) {
+    throw;  // of the machine, not the design
+  } catch (const std::exception& error) {
+    evaluation.failure = error.what();
+  }
+  evaluation.seconds = seconds_since(start);
+  return evaluation;
+}
+
+/// A sweep under way: what is known of its designs.
+class Sweep {
+ public:
+  /// Takes over what an earlier run has archived.
+  /// @throws InputError where the archive is of another command
+  Sweep(const Task& task, RunRecord& record);
+
+  /// Tries what is missing; Ctrl-C ends it early.
+  void run(bool quiet);
+
+  const std::vector<GridDesign>& designs() const { return designs_; }
+  /// In the order of the designs; nothing where the sweep did not get there.
+  const std::vector<std::optional<Outcome>>& outcomes() const { return outcomes_; }
+  std::size_t done() const { return done_; }
+  /// What the designs took so far, in earlier runs too, s.
+  double elapsed() const;
+  bool is_complete() const { return done_ == designs_.size(); }
+
+ private:
+  void add(std::size_t design, const ArchivedEvaluation& evaluation);
+  std::string progress_text(std::size_t tried, double elapsed) const;
+
+  const Task& task_;
+  RunRecord& record_;
+  std::vector<GridDesign> designs_;
+  std::vector<std::optional<Outcome>> outcomes_;
+  std::size_t done_ = 0;
+  std::mutex lock_;  ///< of the archive and what is known
+};
+
+Sweep::Sweep(const Task& task, RunRecord& record)
+    : task_(task),
+      record_(record),
+      designs_(task.grid.distinct_designs()),
+      outcomes_(designs_.size()) {
+  std::map<std::string_view, std::size_t> index;
+  for (std::size_t i = 0; i < designs_.size(); ++i) index.emplace(designs_[i].key, i);
+  for (const ArchivedEvaluation& evaluation : record.archive().evaluations()) {
+    if (evaluation.stage == "verify") continue;
+    const auto design = index.find(evaluation.key);
+    if (evaluation.stage != "sweep" || design == index.end()) {
+      throw InputError("--resume", record.folder().path().string(),
+                       "its archive has designs that are not of the sweep of its config.cfg");
+    }
+    add(design->second, evaluation);
+  }
+}
+
+void Sweep::add(std::size_t design, const ArchivedEvaluation& evaluation) {
+  done_ += outcomes_[design] ? 0 : 1;
+  outcomes_[design] = outcome_of(evaluation);
+}
+
+double Sweep::elapsed() const {
+  double elapsed = 0.0;
+  for (const auto& outcome : outcomes_) {
+    if (outcome) elapsed = std::max(elapsed, outcome->elapsed);
+  }
+  return elapsed;
+}
+
+void Sweep::run(bool quiet) {
+  const InterruptWatch watch;
+  ProgressLine progress(quiet);
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < designs_.size(); ++i) {
+    if (!outcomes_[i]) missing.push_back(i);
+  }
+  const std::size_t done_before = done_;
+  const double elapsed_before = elapsed();
+  const auto start = Clock::now();
+  for (std::size_t first = 0; first < missing.size(); first += batch_size) {
+    tbb::parallel_for(first, std::min(first + batch_size, missing.size()), [&](std::size_t i) {
+      if (InterruptWatch::interrupted()) return;
+      const ArchivedEvaluation evaluation =
+          evaluation_of(designs_[missing[i]], task_, start, elapsed_before);
+      const std::scoped_lock lock(lock_);
+      record_.archive().add(evaluation);
+      add(missing[i], evaluation);
+      progress.show(progress_text(done_ - done_before, seconds_since(start)));
+    });
+  }
+}
+
+std::string Sweep::progress_text(std::size_t tried, double elapsed) const {
+  const double left = elapsed / double(tried) * double(designs_.size() - done_);
+  return fmt::format("sweep: design {} of {}, {} left, then the verification", done_,
+                     designs_.size(), duration_text(left));
+}
+
+/// The cheapest design that keeps the limits, or comes closest; the first among equals.
+/// @throws std::runtime_error where all failed
+std::size_t best_of(const Sweep& sweep) {
+  std::optional<std::size_t> best;
+  const auto rank = [&](std::size_t design) {
+    const Outcome& outcome = *sweep.outcomes()[design];
+    return EvaluatedDesign{
+        .point = {}, .key = {}, .cost = outcome.cost.mean, .violation = outcome.violation};
+  };
+  for (std::size_t i = 0; i < sweep.designs().size(); ++i) {
+    if (!sweep.outcomes()[i]->failure.empty()) continue;
+    if (!best || is_better(rank(i), rank(*best))) best = i;
+  }
+  if (best) return *best;
+  throw std::runtime_error(
+      fmt::format("every design of the grid failed; the first: {}",
+                  sweep.outcomes().empty() ? "" : sweep.outcomes().front()->failure));
+}
+
+/// A value of an axis as people write it; lengths and times in SI.
+Json axis_value(const DesignGrid& grid, const GridAxis& axis, std::size_t place) {
+  const double value = axis.values[place];
+  if (axis.name == "order") {
+    return fmt::format("{}", fmt::join(grid.orders()[static_cast<std::size_t>(value)], ""));
+  }
+  const auto& keys = configuration_keys();
+  const auto key = std::ranges::find(keys, "sweep." + axis.name, &ConfigurationKey::name);
+  if (key->element == Kind::choice) return key->choices[static_cast<std::size_t>(value)];
+  if (key->element == Kind::integer) return static_cast<int>(value);
+  return value;
+}
+
+std::string axis_unit(const GridAxis& axis) {
+  const auto& keys = configuration_keys();
+  return std::string(
+      std::ranges::find(keys, "sweep." + axis.name, &ConfigurationKey::name)->unit_text());
+}
+
+/// The outcome of each point; null where the grid has no design.
+std::vector<const Outcome*> outcomes_of_points(const Task& task, const Sweep& sweep) {
+  std::vector<const Outcome*> points(task.grid.size(), nullptr);
+  for (std::size_t i = 0; i < sweep.designs().size(); ++i) {
+    for (const std::size_t point : sweep.designs()[i].points) points[point] = &*sweep.outcomes()[i];
+  }
+  return points;
+}
+
+/// One row per point of the grid.
+std::string points_table(const DesignGrid& grid, const std::vector<const Outcome*>& points) {
+  std::vector<std::string> columns;
+  for (const GridAxis& axis : grid.axes()) {
+    const std::string unit = axis_unit(axis);
+    columns.push_back(unit.empty() ? axis.name : fmt::format("{}_{}", axis.name, unit));
+  }
+  columns.insert(columns.end(), {"cost", "cost_standard_error", "violation"});
+  for (const PerformanceMetric& metric : performance_metrics()) {
+    columns.emplace_back(metric.name);
+    columns.push_back(fmt::format("{}_standard_error", metric.name));
+  }
+  columns.emplace_back("failure");
+  CsvTable table(columns);
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    table.row();
+    const std::vector<std::size_t> places = grid.places(point);
+    for (std::size_t axis = 0; axis < places.size(); ++axis) {
+      const Json value = axis_value(grid, grid.axes()[axis], places[axis]);
+      if (value.is_string()) {
+        table.add(value.get<std::string>());
+      } else {
+        table.add(value.get<double>());
+      }
+    }
+    const Outcome* outcome = points[point];
+    if (outcome == nullptr || !outcome->failure.empty()) {
+      for (std::size_t i = 0; i < 3 + 2 * performance_metrics().size(); ++i) table.add("");
+      table.add(outcome == nullptr ? "the order is one of another number of planes"
+                                   : outcome->failure);
+      continue;
+    }
+    table.add(outcome->cost.mean).add(outcome->cost.standard_error).add(outcome->violation);
+    for (const MeanAndError& metric : outcome->metrics) {
+      table.add(metric.mean).add(metric.standard_error);
+    }
+    table.add("");
+  }
+  return table.text();
+}
+
+/// Nested arrays, the first axis outermost, of a value of each point; null where there is none.
+template <class Value>
+Json matrix_of(const DesignGrid& grid, const std::vector<const Outcome*>& points,
+               const Value& value) {
+  std::vector<Json> rows;
+  for (const Outcome* point : points) {
+    const bool has_value = point != nullptr && point->failure.empty();
+    rows.push_back(has_value ? Json(value(*point)) : Json(nullptr));
+  }
+  for (auto axis = grid.axes().rbegin(); axis != grid.axes().rend(); ++axis) {
+    std::vector<Json> outer;
+    for (std::size_t first = 0; first < rows.size(); first += axis->values.size()) {
+      const auto begin = rows.begin() + std::ptrdiff_t(first);
+      outer.push_back(Json(Json::array_t(begin, begin + std::ptrdiff_t(axis->values.size()))));
+    }
+    rows = std::move(outer);
+  }
+  return rows.front();
+}
+
+Json grid_object(const DesignGrid& grid, const std::vector<const Outcome*>& points) {
+  Json object;
+  object["axes"] = Json::array();
+  for (const GridAxis& axis : grid.axes()) {
+    Json values = Json::array();
+    for (std::size_t i = 0; i < axis.values.size(); ++i)
+      values.push_back(axis_value(grid, axis, i));
+    object["axes"].push_back({{"name", axis.name}, {"unit", axis_unit(axis)}, {"values", values}});
+  }
+  object["cost"] = matrix_of(grid, points, [](const Outcome& point) { return point.cost.mean; });
+  object["violation"] = matrix_of(grid, points, [](const Outcome& p) { return p.violation; });
+  for (std::size_t i = 0; i < performance_metrics().size(); ++i) {
+    object[std::string(performance_metrics()[i].name)] =
+        matrix_of(grid, points, [i](const Outcome& point) { return point.metrics[i].mean; });
+  }
+  return object;
+}
+
+TriedDesign verified_best(const GridDesign& best, const Task& task, RunRecord& record, bool quiet) {
+  ProgressLine progress(quiet);
+  progress.show(fmt::format("verification: best design on {} fresh screens",
+                            task.verification.screen_count()));
+  const auto start = Clock::now();
+  TriedDesign verified = task.verification.run(best.design);
+  const std::vector<ArchivedEvaluation> archived = record.archive().evaluations();
+  if (std::ranges::count(archived, "verify", &ArchivedEvaluation::stage) == 0) {
+    record.archive().add(
+        {.stage = "verify",
+         .design = to_json(best.design, task.telescope, task.seeing.fried_parameter).dump(),
+         .cost = mean_and_standard_error(verified.costs).mean,
+         .failure = "",
+         .seconds = seconds_since(start),
+         .performance = to_json(pooled(verified.performances)).dump(),
+         .key = best.key});
+  }
+  return verified;
+}
+
+}  // namespace
+
+void run_sweep(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  if (command_line.resume && std::filesystem::exists(*command_line.resume / "summary.json")) {
+    fmt::print("{} has its summary.json: the run is complete, nothing is left to do.\n",
+               command_line.resume->string());
+    return;
+  }
+  const auto start = Clock::now();
+  const Task task(configuration);
+  RunRecord record(command_line);
+  const std::string folder = record.folder().path().string();
+  Sweep sweep(task, record);
+  const std::size_t taken_over = sweep.done();
+  const double seconds_before = sweep.elapsed();
+  sweep.run(command_line.quiet);
+  if (!sweep.is_complete()) {
+    throw std::runtime_error(
+        fmt::format("interrupted with {} of {} designs done; go on with: nlcwfs sweep --resume {}",
+                    sweep.done(), sweep.designs().size(), folder));
+  }
+
+  const std::vector<const Outcome*> points = outcomes_of_points(task, sweep);
+  record.folder().write("sweep.csv", points_table(task.grid, points));
+  const GridDesign& best_design = sweep.designs()[best_of(sweep)];
+  // The archive has its means alone; the same screens give the same again.
+  const TriedDesign on_search_screens = task.trial.run(best_design.design);
+  const TriedDesign best = verified_best(best_design, task, record, command_line.quiet);
+
+  Configuration best_configuration = configuration;
+  set_design(best_configuration, best.design, task.grid.space(), "by the sweep");
+  record.folder().write("best.cfg", best_configuration.dump());
+  const auto failures = static_cast<int>(std::ranges::count_if(
+      sweep.outcomes(), [](const auto& outcome) { return !outcome->failure.empty(); }));
+  const auto evaluations = static_cast<int>(sweep.designs().size());
+  record.write_summary(
+      {{"best", to_json(best, task.verification)},
+       {"best_on_search_screens", to_json(on_search_screens, task.trial)},
+       {"grid", grid_object(task.grid, points)},
+       {"points", task.grid.size()},
+       {"evaluations", evaluations},
+       {"failures", failures},
+       {"reconstructions", (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
+                            task.verification.screen_count()) *
+                               static_cast<std::int64_t>(task.trial.conditions().size())},
+       {"wall_seconds", seconds_before + seconds_since(start)},
+       {"search_seconds", sweep.elapsed()}});
+
+  const Performance performance = pooled(best.performances);
+  const Performance search_performance = pooled(on_search_screens.performances);
+  for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
+  fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
+  fmt::print("Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
+             evaluations, task.grid.size(), task.trial.screen_count(),
+             configuration.choice("search.precision"), duration_text(sweep.elapsed()),
+             taken_over > 0 ? fmt::format(" ({} of them in an earlier run)", taken_over) : "",
+             failures > 0 ? fmt::format("; {} of them failed, see sweep.csv", failures) : "");
+  fmt::print("Best design, planes in visiting order:\n{}\n",
+             planes_table(best.design, task.telescope, task.seeing, &performance));
+  fmt::print(
+      "On the sweep's {} screens, and on {} fresh ones with the true field {} samples across "
+      "the pupil:\n{}",
+      task.trial.screen_count(), task.verification.screen_count(),
+      task.verification.conditions().front().simulation->truth_samples(),
+      performance_table({{"sweep's screens", &search_performance, on_search_screens.costs},
+                         {"fresh screens", &performance, best.costs}}));
+  fmt::print("{}{}\n{}\n", conditions_table(best, task.verification),
+             captured_energy_warnings(best.design, performance), record.closing_line());
+}
+
+}  // namespace nlcwfs
