@@ -36,9 +36,11 @@ constexpr double penalty_of_failure = 1e102;
 
 std::vector<double> objectives_for_pagmo(const std::optional<EvaluatedDesign>& design,
                                          std::size_t count) {
-  if (!design) return std::vector<double>(count, penalty_of_failure);
+  std::vector<double> penalties(count, penalty_of_failure);
+  if (!design) return penalties;
   if (design->violation > 0.0) {
-    return std::vector<double>(count, penalty_of_violation(design->violation));
+    penalties.assign(count, penalty_of_violation(design->violation));
+    return penalties;
   }
   assert(design->objectives.size() == count);
   return design->objectives;
@@ -193,6 +195,7 @@ class ParetoSearch {
     }
     if (!evaluator_.best()) return;
     std::vector<Island> islands;
+    islands.reserve(first.size());
     for (int i = 0; i < sub_space_count; ++i) {
       islands.push_back(island(i, first[static_cast<std::size_t>(i)]));
     }

@@ -29,7 +29,8 @@ struct DlibRun {
   }
 };
 
-DlibRun run(TestProblem problem, StageOptions options, std::vector<SearchPoint> starts = {}) {
+DlibRun run(TestProblem problem, StageOptions options,
+            const std::vector<SearchPoint>& starts = {}) {
   DlibRun done;
   Evaluator evaluator(problem, {.budget = 1000, .observer = [&](const EvaluationRecord& record) {
                                   done.records.push_back(record);

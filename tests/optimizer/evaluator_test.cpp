@@ -232,6 +232,7 @@ TEST(Evaluator, AnswersABatchAsOneByOne) {
   };
   problem.excess = [](const Eigen::VectorXd& x) { return std::max(0.0, 3.7 - x[0]); };
   std::vector<SearchPoint> points;
+  points.reserve(23);
   for (int i = 0; i < 21; ++i) points.push_back(at(3.6 + 0.06 * i, 5.0 + 0.01 * i));
   points.push_back(points[3]);      // in an earlier batch
   points.push_back(points.back());  // in the same batch
@@ -250,6 +251,7 @@ TEST(Evaluator, AnswersABatchAsOneByOne) {
     EXPECT_GT(together.failures(), 0);
     EXPECT_EQ(together.best()->key, alone.best()->key);
     std::vector<std::string> requested;
+    requested.reserve(21);
     for (int i = 0; i < 21; ++i)
       requested.push_back(exact_key(points[static_cast<std::size_t>(i)]));
     EXPECT_EQ(keys, requested);

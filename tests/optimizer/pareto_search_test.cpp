@@ -30,6 +30,7 @@ EvaluatedDesign design(std::vector<double> objectives) {
 
 std::vector<std::vector<double>> objectives_of(const std::vector<EvaluatedDesign>& designs) {
   std::vector<std::vector<double>> all;
+  all.reserve(designs.size());
   for (const EvaluatedDesign& each : designs) all.push_back(each.objectives);
   return all;
 }
@@ -130,9 +131,9 @@ TEST_P(EveryParetoAlgorithm, FindsTheWholeFrontOfAFewDesignsAndEnds) {
   const ParetoRun done = run(problem, options(1000));
   EXPECT_EQ(done.result.termination, Termination::converged);
   std::vector<EvaluationRecord> all;
-  for (double n = 18.0; n <= 23.0; ++n) {
-    for (double m = 3.0; m <= 7.0; ++m) {
-      for (double kind = 2.0; kind <= 3.0; ++kind) {
+  for (int n = 18; n <= 23; ++n) {
+    for (int m = 3; m <= 7; ++m) {
+      for (int kind = 2; kind <= 3; ++kind) {
         EvaluationRecord record;
         record.objectives = problem.objectives({0, Eigen::Vector3d(n, m, kind)});
         all.push_back(record);
@@ -155,7 +156,7 @@ TEST_P(EveryParetoAlgorithm, SharesTheBudgetAmongSubSpacesAndTakesTheStarts) {
   }
   for (const int count : counts) EXPECT_NEAR(count, 100, with_starts.population);
   EXPECT_EQ(done.records[0].point.x, problem.start());
-  EXPECT_EQ(done.records[2 * 16].point.x, x);
+  EXPECT_EQ(done.records[32].point.x, x);
 }
 
 TEST_P(EveryParetoAlgorithm, EndsWithTheFrontSoFarWhereItIsStopped) {

@@ -46,7 +46,7 @@ TEST(Race, GivesUpAnEquallyGoodDesignNoMoreOftenThanItsSignificance) {
     boost::random::mt19937_64 generator(1);
     int given_up = 0;
     for (int i = 0; i < trials; ++i) {
-      given_up += Pair(generator, 0.0).given_up_after(significance) > 0;
+      if (Pair(generator, 0.0).given_up_after(significance) > 0) ++given_up;
     }
     const double standard_error = std::sqrt(significance * (1.0 - significance) / trials);
     EXPECT_LT(given_up, trials * (significance + 3.0 * standard_error));
@@ -61,7 +61,7 @@ TEST(Race, GivesUpAClearlyWorseDesignEarly) {
   std::size_t samples_spent = 0;
   for (int i = 0; i < trials; ++i) {
     const std::size_t after = Pair(generator, 5.0).given_up_after(0.05);
-    given_up += after > 0;
+    if (after > 0) ++given_up;
     samples_spent += after > 0 ? after : samples;
   }
   EXPECT_EQ(given_up, trials);
