@@ -13,7 +13,8 @@ namespace nlcwfs {
 /// each look has an equal part of the error allowed (Bonferroni 1936).
 class Race {
  public:
-  /// @param rival_costs   of all samples; looks at other numbers of them than 4, 8, ... are not allowed for
+  /// @param rival_costs   of all samples; looks at other numbers of them than 4, 8, ... are not
+  /// allowed for
   /// @param significance  the chance to give up a design that is as good as the rival, at most
   Race(std::vector<double> rival_costs, double significance);
 
