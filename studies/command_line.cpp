@@ -219,6 +219,7 @@ const std::vector<Command>& commands() {
       {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
       {"sweep", "try every design of a grid: maps of all figures, and the best, verified", true},
       {"optimize", "find a telescope's best design and verify it on fresh screens"},
+      {"law", "fit the scaling law that advise follows to the best designs at several D/r0"},
       {"advise", "tell a telescope's planes from the scaling law; --verify simulates them"},
       {"benchmark", "time a configuration on this machine; writes files only with --output"}};
   return known;

@@ -533,6 +533,12 @@ std::vector<ConfigurationKey> make_keys() {
                       "as law.json. Not set: the law that is built into the program.",
        .example = "law.json"},
 
+      {.name = "law.d_over_r0",
+       .kind = Kind::number_list,
+       .default_text = "3,4,5,6,8,10",
+       .description = "Seeings at which law searches designs, to fit the scaling law to them.",
+       .bounds = {.least = 0, .greatest = 1e4, .least_included = false}},
+
       {.name = "scale.diameter",
        .kind = Kind::length,
        .description = "Pupil diameter of the telescope that a design is moved to. Not set: as "

@@ -5,6 +5,7 @@
 #include "studies/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <fstream>
@@ -189,6 +190,21 @@ Json to_json(const ScalingLaw& law) {
         {"scatter", line.scatter}};
   }
   return json;
+}
+
+Configuration law_conditions(const Configuration& configuration) {
+  Configuration conditions;
+  for (const ConfigurationKey& key : configuration_keys()) {
+    const std::string_view section = std::string_view(key.name).substr(0, key.name.find('.'));
+    constexpr std::array searched{"telescope",  "screens",   "detector", "reconstruction",
+                                  "simulation", "objective", "search",   "verify"};
+    if (!configuration.is_set(key.name) ||
+        (std::ranges::count(searched, section) == 0 && key.name != "seeing.outer_scale")) {
+      continue;
+    }
+    conditions.set(key.name, configuration.value_text(key.name), conditions_source);
+  }
+  return conditions;
 }
 
 Json to_json(const LawFile& file) {

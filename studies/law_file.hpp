@@ -39,6 +39,10 @@ LawFile parse_law_file(std::string_view text, const std::string& name);
 /// @throws InputError as above, and where the file cannot be read
 LawFile read_law_file(const std::filesystem::path& path);
 
+/// The conditions of a law's designs, to be named in its file: all of a configuration's values but
+/// D/r0 and what plays no part in a search.
+Configuration law_conditions(const Configuration& configuration);
+
 /// The law file that the program was built with, results/reference/scaling_law.json.
 std::string_view built_in_law_text();
 

@@ -26,6 +26,9 @@ void run_advise(const CommandLine& command_line);
 /// one: its figures are of the moment.
 void run_benchmark(const CommandLine& command_line);
 
+/// The scaling law of the best designs at several seeings.
+void run_law(const CommandLine& command_line);
+
 /// A design moved to another telescope at constant Fresnel numbers.
 void run_scale(const CommandLine& command_line);
 

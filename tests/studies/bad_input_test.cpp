@@ -38,9 +38,10 @@ class BadInput : public Program {
 TEST_F(BadInput, OfTheCommandLine) {
   expect_refused("evaluate", {"--detector.pupil_pixel", "16"},
                  "command line = --detector.pupil_pixel", "did you mean --detector.pupil_pixels?");
-  expect_refused("optimise", {}, "command = optimise",
-                 "one of evaluate, screens, scale, sweep, optimize, advise, benchmark; did you "
-                 "mean optimize?");
+  expect_refused(
+      "optimise", {}, "command = optimise",
+      "one of evaluate, screens, scale, sweep, optimize, law, advise, benchmark; did you "
+      "mean optimize?");
   expect_refused("evaluate", {"optimize"}, "command line = optimize", "nothing may follow");
   expect_refused("evaluate", {"--screens.count"}, "screens.count = (nothing)", "a whole number");
   expect_refused("evaluate", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");

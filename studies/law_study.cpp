@@ -1,0 +1,146 @@
+#include "model/input_error.hpp"
+#include "results/csv_table.hpp"
+#include "results/design_summary.hpp"
+#include "studies/design_search.hpp"
+#include "studies/design_text.hpp"
+#include "studies/law_file.hpp"
+#include "studies/progress_line.hpp"
+#include "studies/run_record.hpp"
+#include "studies/settings.hpp"
+#include "studies/studies.hpp"
+#include "studies/trial_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A law has one visiting order: the first that the search may choose.
+std::array<int, 4> order_of(const Configuration& configuration) {
+  const std::vector<VisitingOrder> orders = configuration.orders("search.order");
+  if (orders.size() != 1 || orders.front().size() != 4) {
+    throw InputError("search.order", configuration.value_text("search.order"),
+                     "one order of four planes, such as 3412: a law has one");
+  }
+  std::array<int, 4> order{};
+  std::ranges::copy(orders.front(), order.begin());
+  return order;
+}
+
+/// A value and how far it may move, as a mean with a standard error: the range that cannot be told
+/// from the best by a test at 5 % reaches over about two of them on each side.
+MeanAndError with_range(double value, const OptimumRange& range) {
+  constexpr double least_relative_error = 1e-3;
+  constexpr double largest_relative_error = 0.9;  // next to nothing is known
+  const double relative = std::log(range.greatest / range.least) / 4.0;
+  return {value, value * std::clamp(relative, least_relative_error, largest_relative_error)};
+}
+
+ScalingDatum datum_of(const DesignSearch& task, const DesignSearchResult& result) {
+  const Telescope& telescope = task.telescope;
+  const double fried_parameter = task.seeing.fried_parameter;
+  const auto range_of = [&](std::string_view name) {
+    const auto found = std::ranges::find(result.ranges, name, &OptimumRange::name);
+    if (found == result.ranges.end()) {
+      throw std::runtime_error(fmt::format("the search of D/r0 = {:g} was interrupted",
+                                           telescope.diameter / fried_parameter));
+    }
+    return *found;
+  };
+  OptimumRange near = range_of("z_near");
+  OptimumRange far = range_of("z_far");
+  // The pairs of a design do not say which of them the search calls near.
+  if (near.best > far.best) std::swap(near, far);
+  const Performance performance = pooled(result.best().performances);
+  const MeanAndError residual = performance.mean_of(performance_metric("residual_wfe_nm"));
+  const double wavelength_nm = 1e9 * telescope.wavelength;
+  return {.d_over_r0 = telescope.diameter / fried_parameter,
+          .z_near_talbot =
+              with_range(near.best / talbot_distance(fried_parameter, telescope.wavelength), near),
+          .far_fresnel_number = with_range(fresnel_number(telescope, far.best), far),
+          .residual_wfe = {residual.mean / wavelength_nm, residual.standard_error / wavelength_nm},
+          .fractional_loops = performance.mean_of(performance_metric("fractional_loops"))};
+}
+
+/// The configuration of the search at one seeing.
+Configuration at_seeing(const Configuration& configuration, double d_over_r0) {
+  Configuration here = configuration;
+  here.set("seeing.d_over_r0", fmt::format("{}", d_over_r0), "by law");
+  return here;
+}
+
+std::string data_table(const std::vector<ScalingDatum>& data, const ScalingLaw& law) {
+  std::string table = fmt::format("  {:>6}", "D/r0");
+  for (const ScalingQuantity& quantity : scaling_quantities()) {
+    table += fmt::format(" {:>26} {:>10}", quantity.name, "law");
+  }
+  for (const ScalingDatum& datum : data) {
+    table += fmt::format("\n  {:>6.4g}", datum.d_over_r0);
+    for (const ScalingQuantity& quantity : scaling_quantities()) {
+      table += fmt::format(" {:>26} {:>10.4g}", with_error(datum.*quantity.datum),
+                           (law.*quantity.line).predict(datum.d_over_r0).mean);
+    }
+  }
+  return table + '\n';
+}
+
+std::string data_csv(const std::vector<ScalingDatum>& data) {
+  std::vector<std::string> columns{"d_over_r0"};
+  for (const ScalingQuantity& quantity : scaling_quantities()) {
+    columns.emplace_back(quantity.name);
+    columns.push_back(fmt::format("{}_standard_error", quantity.name));
+  }
+  CsvTable table(columns);
+  for (const ScalingDatum& datum : data) {
+    table.row().add(datum.d_over_r0);
+    for (const ScalingQuantity& quantity : scaling_quantities()) {
+      table.add((datum.*quantity.datum).mean).add((datum.*quantity.datum).standard_error);
+    }
+  }
+  return table.text();
+}
+
+}  // namespace
+
+void run_law(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  const std::array<int, 4> order = order_of(configuration);
+  require_one_condition(configuration);
+  const std::vector<double> ratios = configuration.numbers("law.d_over_r0");
+  if (ratios.size() < 4) {
+    throw InputError("law.d_over_r0", configuration.value_text("law.d_over_r0"),
+                     "at least 4 values, to which the lines are fitted");
+  }
+  // The one that shows what is wrong with the input, before anything is written.
+  const DesignSearch first(at_seeing(configuration, ratios.front()));
+  RunRecord record(command_line);
+
+  std::vector<ScalingDatum> data;
+  Json searches = Json::array();
+  for (const double ratio : ratios) {
+    fmt::print("{}\n", fmt::format("D/r0 = {:g}:", ratio));
+    const DesignSearch task(at_seeing(configuration, ratio));
+    const DesignSearchResult result = task.run(record.archive(), command_line.quiet);
+    data.push_back(datum_of(task, result));
+    searches.push_back(to_json(result.best(), task.verification));
+    fmt::print("  near pair {} Talbot distances, far pair at Fresnel number {}, cost {}\n",
+               with_error(data.back().z_near_talbot), with_error(data.back().far_fresnel_number),
+               with_error(mean_and_standard_error(result.best().costs)));
+  }
+  const LawFile file{law_conditions(configuration), data, fit_scaling_law(data, order)};
+  record.folder().write("law.json", to_json(file).dump(2) + '\n');
+  record.folder().write("law.csv", data_csv(data));
+  record.write_summary({{"law", to_json(file.law)}, {"designs", searches}});
+
+  fmt::print("\nThe best designs, and the law that is fitted to them:\n{}\n",
+             data_table(data, file.law));
+  fmt::print("nlcwfs advise --advise.law {} follows it.\n{}\n",
+             record.folder().file("law.json").string(), record.closing_line());
+}
+
+}  // namespace nlcwfs
