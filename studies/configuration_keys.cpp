@@ -398,10 +398,12 @@ std::vector<ConfigurationKey> make_keys() {
       {.name = "search.optimizer",
        .kind = Kind::text,
        .default_text = "auto",
-       .description = "Method: GLOBAL+LOCAL, one of either, or auto (direct_l+sbplx, or "
-                      "direct_l+nelder_mead for three and more variables). Global: direct_l, "
-                      "direct_l_rand, crs2, mlsl, isres, esch; local: sbplx, nelder_mead, bobyqa, "
-                      "cobyla, praxis.",
+       .description = "Method: GLOBAL+LOCAL, one of either, or auto, which picks by the space: "
+                      "direct_l for continuous variables and one number of planes, else dlib; then "
+                      "sbplx for up to two continuous variables, else nelder_mead. Global: "
+                      "direct_l, direct_l_rand, crs2, mlsl, isres, esch, dlib (the only one that "
+                      "models discrete variables); local: sbplx, nelder_mead, bobyqa, cobyla, "
+                      "praxis.",
        .example = "direct_l+bobyqa"},
       {.name = "search.budget",
        .kind = Kind::integer,

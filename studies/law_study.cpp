@@ -14,31 +14,39 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A law has one visiting order: the first that the search may choose.
+/// A law has one visiting order: the user's, or far pair first, which searches of all orders end
+/// in.
 std::array<int, 4> order_of(const Configuration& configuration) {
   const std::vector<VisitingOrder> orders = configuration.orders("search.order");
+  if (orders.empty()) return {3, 4, 1, 2};
   if (orders.size() != 1 || orders.front().size() != 4) {
     throw InputError("search.order", configuration.value_text("search.order"),
-                     "one order of four planes, such as 3412: a law has one");
+                     "one order of four planes: a law has one. Not set: 3412");
   }
   std::array<int, 4> order{};
   std::ranges::copy(orders.front(), order.begin());
   return order;
 }
 
+/// Screens that all end alike (at the last loop) would say that a value is exact.
+MeanAndError with_error_floor(const MeanAndError& value) {
+  constexpr double least_relative_error = 1e-3;
+  return {value.mean, std::max(value.standard_error, least_relative_error * value.mean)};
+}
+
 /// A value and how far it may move, as a mean with a standard error: the range that cannot be told
 /// from the best by a test at 5 % reaches over about two of them on each side.
 MeanAndError with_range(double value, const OptimumRange& range) {
-  constexpr double least_relative_error = 1e-3;
   constexpr double largest_relative_error = 0.9;  // next to nothing is known
   const double relative = std::log(range.greatest / range.least) / 4.0;
-  return {value, value * std::clamp(relative, least_relative_error, largest_relative_error)};
+  return with_error_floor({value, value * std::min(relative, largest_relative_error)});
 }
 
 ScalingDatum datum_of(const DesignSearch& task, const DesignSearchResult& result) {
@@ -63,13 +71,17 @@ ScalingDatum datum_of(const DesignSearch& task, const DesignSearchResult& result
           .z_near_talbot =
               with_range(near.best / talbot_distance(fried_parameter, telescope.wavelength), near),
           .far_fresnel_number = with_range(fresnel_number(telescope, far.best), far),
-          .residual_wfe = {residual.mean / wavelength_nm, residual.standard_error / wavelength_nm},
-          .fractional_loops = performance.mean_of(performance_metric("fractional_loops"))};
+          .residual_wfe = with_error_floor(
+              {residual.mean / wavelength_nm, residual.standard_error / wavelength_nm}),
+          .fractional_loops =
+              with_error_floor(performance.mean_of(performance_metric("fractional_loops")))};
 }
 
 /// The configuration of the search at one seeing.
-Configuration at_seeing(const Configuration& configuration, double d_over_r0) {
+Configuration at_seeing(const Configuration& configuration, const std::array<int, 4>& order,
+                        double d_over_r0) {
   Configuration here = configuration;
+  here.set("search.order", fmt::format("{}", fmt::join(order, "")), "by law");
   here.set("seeing.d_over_r0", fmt::format("{}", d_over_r0), "by law");
   return here;
 }
@@ -117,14 +129,14 @@ void run_law(const CommandLine& command_line) {
                      "at least 4 values, to which the lines are fitted");
   }
   // The one that shows what is wrong with the input, before anything is written.
-  const DesignSearch first(at_seeing(configuration, ratios.front()));
+  const DesignSearch first(at_seeing(configuration, order, ratios.front()));
   RunRecord record(command_line);
 
   std::vector<ScalingDatum> data;
   Json searches = Json::array();
   for (const double ratio : ratios) {
     fmt::print("{}\n", fmt::format("D/r0 = {:g}:", ratio));
-    const DesignSearch task(at_seeing(configuration, ratio));
+    const DesignSearch task(at_seeing(configuration, order, ratio));
     const DesignSearchResult result = task.run(record.archive(), command_line.quiet);
     data.push_back(datum_of(task, result));
     searches.push_back(to_json(result.best(), task.verification));
@@ -132,9 +144,10 @@ void run_law(const CommandLine& command_line) {
                with_error(data.back().z_near_talbot), with_error(data.back().far_fresnel_number),
                with_error(mean_and_standard_error(result.best().costs)));
   }
-  const LawFile file{law_conditions(configuration), data, fit_scaling_law(data, order)};
-  record.folder().write("law.json", to_json(file).dump(2) + '\n');
   record.folder().write("law.csv", data_csv(data));
+  const LawFile file{law_conditions(at_seeing(configuration, order, ratios.front())), data,
+                     fit_scaling_law(data, order)};
+  record.folder().write("law.json", to_json(file).dump(2) + '\n');
   record.write_summary({{"law", to_json(file.law)}, {"designs", searches}});
 
   fmt::print("\nThe best designs, and the law that is fitted to them:\n{}\n",

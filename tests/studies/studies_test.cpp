@@ -1,11 +1,14 @@
 #include "results/fits_cube.hpp"
 #include "studies/command_line.hpp"
+#include "studies/settings.hpp"
 #include "studies/version.hpp"
 #include "tests/studies/program.hpp"
 
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <regex>
+#include <set>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -29,13 +32,13 @@ std::vector<std::string> keys_of(const Json& json) {
   return keys;
 }
 
-/// The rows of a table without quotes, its header first.
+/// The rows of a table, its header first; cells in quotes come as "quoted".
 std::vector<std::vector<std::string>> read_table(const std::string& path) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream text(contents(path));
   for (std::string line; std::getline(text, line);) {
     rows.emplace_back();
-    std::istringstream cells(line);
+    std::istringstream cells(std::regex_replace(line, std::regex("\"[^\"]*\""), "quoted"));
     for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
   }
   return rows;
@@ -113,6 +116,99 @@ TEST_F(Studies, EvaluateLeavesItsFiles) {
                                     "fft_count", "converged"));
   EXPECT_NEAR((std::stod(table[1][1]) + std::stod(table[2][1])) / 2.0,
               json["design"]["performance"]["residual_wfe_nm"]["mean"], 1e-9);
+}
+
+TEST_F(Studies, OptimizeVariesWhatItIsTold) {
+  const ProgramRun finished =
+      done("optimize", "run",
+           {"--search.layout", "free", "--search.plane_count", "3,4",
+            "--search.relaxation=-0.3:0.7", "--search.initial_guess", "flat,centroid",
+            "--search.pupil_pixels", "8,16", "--search.budget", "40"});
+  EXPECT_THAT(finished.output,
+              AllOf(HasSubstr("  with pupil_pixels "), HasSubstr("initial_guess ")));
+  const auto table = read_table("run/search.csv");
+  const auto column = [&](const std::string& name) {
+    const auto place = std::ranges::find(table[0], name) - table[0].begin();
+    std::set<std::string> values;
+    for (std::size_t row = 1; row < table.size(); ++row) {
+      values.insert(table[row].at(static_cast<std::size_t>(place)));
+    }
+    return values;
+  };
+  EXPECT_THAT(column("pupil_pixels"), ElementsAre("16", "8"));
+  EXPECT_THAT(column("initial_guess"), ElementsAre("0", "1"));
+  EXPECT_GT(column("relaxation").size(), 10u);
+  EXPECT_EQ(column("tolerance").size(), 1u);
+
+  // The best design's configuration is the best design.
+  const Json best = summary("run")["best"];
+  const SensorDesign design = [] {
+    Configuration configuration;
+    configuration.read_file("run/best.cfg");
+    return design_of(configuration);
+  }();
+  EXPECT_EQ(design.planes, best["planes_m"].get<std::vector<double>>());
+  EXPECT_EQ(design.detector.pupil_pixels, best["pupil_pixels"]);
+  EXPECT_EQ(design.reconstruction.relaxation_start, best["relaxation"][0]);
+  EXPECT_EQ(design.reconstruction.relaxation_end, best["relaxation"][1]);
+}
+
+TEST_F(Studies, OptimizeEndsWhereItIsTold) {
+  const auto ended = [](const std::string& folder, const Arguments& more) {
+    const ProgramRun finished = done("optimize", folder, more);
+    return std::pair(finished.output, summary(folder));
+  };
+  const auto [target_text, target] =
+      ended("target", {"--search.target", "1000", "--search.budget", "50"});
+  EXPECT_EQ(target["termination"], "target_reached");
+  EXPECT_LT(target["evaluations"], 10);
+  EXPECT_THAT(target_text, HasSubstr("until search.target was reached"));
+  const auto [stagnation_text, stagnation] =
+      ended("stagnation", {"--search.stagnation", "3", "--search.budget", "500"});
+  EXPECT_EQ(stagnation["termination"], "stagnated");
+  EXPECT_LT(stagnation["evaluations"], 500);
+  EXPECT_THAT(stagnation_text, HasSubstr("until search.stagnation designs in a row"));
+  const auto [time_text, time] =
+      ended("time", {"--search.time_limit", "1ms", "--search.budget", "100000"});
+  EXPECT_EQ(time["termination"], "time_limit");
+  EXPECT_THAT(time_text, HasSubstr("until search.time_limit"));
+}
+
+TEST_F(Studies, ACheapSearchOnlyGivesStarts) {
+  const ProgramRun finished =
+      done("optimize", "run",
+           {"--search.cheap_budget", "12", "--search.cheap_screens", "1", "--search.budget", "8"});
+  EXPECT_THAT(finished.output, HasSubstr("before that 12 in the cheap search"));
+  const Json json = summary("run");
+  EXPECT_EQ(json["cheap_evaluations"], 12);
+  EXPECT_EQ(json["evaluations"], 8);
+  EXPECT_EQ(json["search_reconstructions"], 12 * 1 + 8 * 2);
+  EXPECT_EQ(archived("run", "SELECT count(*) FROM evaluations WHERE stage = 'cheap search'"), 12.0);
+  // Its best design is the full search's third, after the user's own two.
+  EXPECT_EQ(archived("run",
+                     "SELECT count(*) FROM evaluations a, evaluations b WHERE a.stage = 'search' "
+                     "AND b.stage = 'cheap search' AND json_extract(a.design, '$.planes_m') = "
+                     "json_extract(b.design, '$.planes_m') AND b.cost = (SELECT min(cost) FROM "
+                     "evaluations WHERE stage = 'cheap search') AND a.id = 15"),
+            1.0);
+  EXPECT_EQ(std::ranges::count(contents("run/search.csv"), '\n'), 1 + 8);
+}
+
+TEST_F(Studies, RacesSaveReconstructionsAndKeepTheWinner) {
+  const Arguments more{"--screens.count", "16", "--search.budget", "30"};
+  const auto optimized = [&](const std::string& folder, const std::string& race) {
+    Arguments arguments = more;
+    arguments.insert(arguments.end(), {"--search.race", race});
+    done("optimize", folder, arguments);
+    return summary(folder);
+  };
+  const Json all = optimized("all", "0");
+  const Json raced = optimized("raced", "0.05");
+  EXPECT_EQ(all["given_up"], 0);
+  EXPECT_EQ(all["search_reconstructions"], 30 * 16);
+  EXPECT_GT(raced["given_up"], 0);
+  EXPECT_LT(raced["search_reconstructions"], 30 * 16);
+  EXPECT_EQ(raced["best"]["planes_m"], all["best"]["planes_m"]);
 }
 
 TEST_F(Studies, AnInterruptedOptimizeVerifiesTheBestSoFar) {
