@@ -122,6 +122,9 @@ class DesignSpace {
   /// Whether a property is one of the space's, so that it is not as in `base`.
   bool varies(std::string_view property) const;
 
+  /// Whether the space has a domain of a property, be it of one value: not the base decides on it.
+  bool decides(std::string_view property) const { return options_.domains.contains(property); }
+
  private:
   struct Axis;
   struct Region;

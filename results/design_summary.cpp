@@ -1,7 +1,11 @@
 #include "results/design_summary.hpp"
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -17,6 +21,17 @@ Json of_each(const std::vector<double>& values, const Function& function) {
 
 /// JSON has no infinity: the Fresnel number of the pupil itself is null.
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Of the two values that a word of a design may stand for, that which it does.
+template <class Value>
+Value value_of(const Json& json, const char* member, std::pair<const char*, Value> one,
+               std::pair<const char*, Value> other) {
+  const std::string word = json.at(member);
+  if (word == one.first) return one.second;
+  if (word == other.first) return other.second;
+  throw std::runtime_error(
+      fmt::format("{} is '{}', but should be {} or {}", member, word, one.first, other.first));
+}
 
 }  // namespace
 
@@ -66,6 +81,37 @@ Json to_json(const SensorDesign& design, const Telescope& telescope, double frie
                            ? "quality_guided"
                            : "least_squares";
   return json;
+}
+
+SensorDesign design_from_json(const Json& json) {
+  using enum StoppingRule;
+  using enum InitialGuess;
+  using enum OutsideDetector;
+  using enum UnwrappingMethod;
+  const double photon_rate = json.at("photon_rate");
+  return {.planes = json.at("planes_m"),
+          .detector = {.pupil_pixels = json.at("pupil_pixels"),
+                       .window = json.at("detector_window"),
+                       // Of a rate the summary has its product with the exposure.
+                       .photons = photon_rate > 0.0 ? 0.0 : json.at("photons").get<double>(),
+                       .read_noise = json.at("read_noise"),
+                       .photon_rate = photon_rate,
+                       .exposure = json.at("exposure_s")},
+          .reconstruction = {
+              .max_loops = json.at("max_loops"),
+              .tolerance = json.at("tolerance_m"),
+              .stopping = value_of<StoppingRule>(json, "stopping", {"difference", difference},
+                                                 {"rms_change", rms_change}),
+              .relaxation_start = json.at("relaxation").at(0),
+              .relaxation_end = json.at("relaxation").at(1),
+              .initial_guess = value_of<InitialGuess>(json, "initial_guess", {"flat", flat},
+                                                      {"centroid", centroid}),
+              .window = json.at("reconstruction_window"),
+              .outside = value_of<OutsideDetector>(json, "outside", {"free", free}, {"zero", zero}),
+              .oversampling = json.at("oversampling"),
+              .unwrapping =
+                  value_of<UnwrappingMethod>(json, "unwrapping", {"quality_guided", quality_guided},
+                                             {"least_squares", least_squares})}};
 }
 
 }  // namespace nlcwfs

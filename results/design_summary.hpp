@@ -22,4 +22,9 @@ nlohmann::ordered_json to_json(const Performance& performance);
 nlohmann::ordered_json to_json(const SensorDesign& design, const Telescope& telescope,
                                double fried_parameter);
 
+/// The design of a summary, the inverse of the above to the last bit.
+/// @throws nlohmann::json::exception where a member is missing or of another type,
+///         std::runtime_error where a word is none of a design's
+SensorDesign design_from_json(const nlohmann::ordered_json& json);
+
 }  // namespace nlcwfs

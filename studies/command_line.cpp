@@ -118,6 +118,13 @@ std::vector<std::string> command_names() {
   return names;
 }
 
+/// The command and the names of its arguments.
+std::vector<std::string> usage_words(const Command& command) {
+  std::vector<std::string> words{command.name};
+  words.insert(words.end(), command.arguments.begin(), command.arguments.end());
+  return words;
+}
+
 /// @param option  with its two dashes
 [[noreturn]] void refuse_missing_value(const std::string& option) {
   const auto& keys = configuration_keys();
@@ -156,15 +163,25 @@ std::vector<po::option> parse_options(int argc, const char* const* argv,
   }
 }
 
-/// @param earlier  the command that was given before, or empty
-std::string parse_command(const std::string& value, const std::string& earlier,
-                          const po::options_description& options) {
+const Command& command_of(const std::string& name) {
+  return *std::ranges::find(commands(), name, &Command::name);
+}
+
+/// Reads what is no option: the command, then its arguments.
+void parse_positional(const std::string& value, CommandLine& result,
+                      const po::options_description& options) {
   if (value.starts_with('-')) refuse_unknown(value, options);
-  if (!earlier.empty()) {
-    throw InputError("command line", one_line(value),
-                     fmt::format("nothing may follow the command {} but options, such as "
-                                 "--telescope.diameter 0.5m",
-                                 earlier));
+  if (!result.command.empty()) {
+    const Command& command = command_of(result.command);
+    if (result.arguments.size() == command.arguments.size()) {
+      throw InputError("command line", one_line(value),
+                       fmt::format("nothing may follow the command {} but options, such as "
+                                   "--telescope.diameter 0.5m",
+                                   fmt::join(usage_words(command), " ")));
+    }
+    if (value.empty()) throw InputError("command line", one_line(""), "a folder must have a name");
+    result.arguments.push_back(value);
+    return;
   }
   const auto names = command_names();
   if (std::ranges::count(names, value) == 0) {
@@ -173,7 +190,16 @@ std::string parse_command(const std::string& value, const std::string& earlier,
                      fmt::format("one of {}; did you mean {}?", fmt::join(names, ", "),
                                  nearest_word(shown, names)));
   }
-  return value;
+  result.command = value;
+}
+
+void require_arguments(const CommandLine& command_line) {
+  const Command& command = command_of(command_line.command);
+  const std::size_t given = command_line.arguments.size();
+  if (given == command.arguments.size()) return;
+  throw InputError("command line", given == 0 ? one_line("") : one_line(command_line.arguments[0]),
+                   fmt::format("{} folders must follow {}: nlcwfs {}", command.arguments.size(),
+                               command.name, fmt::join(usage_words(command), " ")));
 }
 
 /// The configuration of the run to go on with.
@@ -181,11 +207,11 @@ std::string parse_command(const std::string& value, const std::string& earlier,
 Configuration resumed_configuration(const CommandLine& command_line, bool configured) {
   const std::filesystem::path& folder = *command_line.resume;
   const std::string shown = one_line(folder.string());
-  const auto command = std::ranges::find(commands(), command_line.command, &Command::name);
-  if (!command->resumable) {
+  const Command& command = command_of(command_line.command);
+  if (!command.resumable) {
     throw InputError("--resume", shown,
                      fmt::format("{} cannot go on with a run; begin it anew with --config {}",
-                                 command->name, one_line((folder / "config.cfg").string())));
+                                 command.name, one_line((folder / "config.cfg").string())));
   }
   if (configured) {
     throw InputError("--resume", shown,
@@ -219,6 +245,10 @@ const std::vector<Command>& commands() {
       {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
       {"sweep", "try every design of a grid: maps of all figures, and the best, verified", true},
       {"optimize", "find a telescope's best design and verify it on fresh screens"},
+      {"compare",
+       "hold a search against a sweep: both best designs on fresh screens, and what each cost",
+       false,
+       {"SWEEP", "OPTIMIZE"}},
       {"law", "fit the scaling law that advise follows to the best designs at several D/r0"},
       {"advise", "tell a telescope's planes from the scaling law; --verify simulates them"},
       {"benchmark", "time a configuration on this machine; writes files only with --output"}};
@@ -244,7 +274,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     const std::string& key = option.string_key;
     const std::string value = option.value.empty() ? "" : option.value.front();
     if (option.position_key >= 0) {
-      result.command = parse_command(value, result.command, known);
+      parse_positional(value, result, known);
       continue;
     }
     if (!seen.insert(key).second && key != "config") {
@@ -281,6 +311,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     throw InputError("command line", "--verify",
                      fmt::format("only advise takes it; leave it away with {}", result.command));
   }
+  if (!result.dump_config) require_arguments(result);
   if (result.resume) {
     const bool configured = preset || !files.empty() || !values.empty() || result.output;
     result.configuration = resumed_configuration(result, configured);
@@ -299,7 +330,9 @@ std::string help_text(std::string_view command) {
   text << fmt::format(
       "Usage: nlcwfs {} [--preset NAME] [--config FILE]... [--section.key VALUE]...\n"
       "              [--output DIR] [--threads N] [--quiet]\n\n",
-      command.empty() ? "<command>" : command);
+      command.empty()
+          ? "<command>"
+          : fmt::format("{}", fmt::join(usage_words(command_of(std::string(command))), " ")));
   if (command.empty()) text << "Commands:\n";
   for (const Command& known : commands()) {
     if (command.empty() || command == known.name) {

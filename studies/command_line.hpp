@@ -15,6 +15,8 @@ struct Command {
   std::string name;
   std::string description;  ///< one line
   bool resumable = false;   ///< takes --resume
+  /// Names of what must follow the command, such as folders; mostly none.
+  std::vector<std::string> arguments = {};
 };
 
 /// Every command, in the order of the help.
@@ -23,6 +25,7 @@ const std::vector<Command>& commands();
 /// What the user asked for.
 struct CommandLine {
   std::string command;  ///< one of commands(); empty only with help or version
+  std::vector<std::string> arguments;  ///< what follows the command, as many as it takes
   Configuration configuration;
   std::optional<std::filesystem::path> output;  ///< directory for the results
   std::optional<std::filesystem::path> resume;  ///< folder of the run to go on with

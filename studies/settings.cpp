@@ -410,31 +410,31 @@ void set_design(Configuration& configuration, const SensorDesign& design, const 
   };
   const ReconstructionOptions& reconstruction = design.reconstruction;
   set("sensor.planes", fmt::format("{}", fmt::join(design.planes, ",")));
-  if (space.varies("pupil_pixels")) {
+  if (space.decides("pupil_pixels")) {
     set("detector.pupil_pixels", fmt::format("{}", design.detector.pupil_pixels));
   }
-  if (space.varies("detector_window")) {
+  if (space.decides("detector_window")) {
     set("detector.window", fmt::format("{}", design.detector.window));
   }
-  if (space.varies("exposure")) {
+  if (space.decides("exposure")) {
     set("detector.exposure", fmt::format("{}", design.detector.exposure));
   }
-  if (space.varies("reconstruction_window")) {
+  if (space.decides("reconstruction_window")) {
     set("reconstruction.window", fmt::format("{}", reconstruction.window));
   }
-  if (space.varies("relaxation") || space.varies("relaxation_start") ||
-      space.varies("relaxation_end")) {
+  if (space.decides("relaxation") || space.decides("relaxation_start") ||
+      space.decides("relaxation_end")) {
     set("reconstruction.relaxation",
         fmt::format("{}:{}", reconstruction.relaxation_start, reconstruction.relaxation_end));
   }
-  if (space.varies("initial_guess")) {
+  if (space.decides("initial_guess")) {
     set("reconstruction.initial_guess",
         reconstruction.initial_guess == InitialGuess::flat ? "flat" : "centroid");
   }
-  if (space.varies("reconstruction_oversampling")) {
+  if (space.decides("reconstruction_oversampling")) {
     set("reconstruction.oversampling", fmt::format("{}", reconstruction.oversampling));
   }
-  if (space.varies("tolerance")) {
+  if (space.decides("tolerance")) {
     set("reconstruction.tolerance", fmt::format("{}", reconstruction.tolerance));
   }
 }

@@ -50,7 +50,7 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary);
 DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
                             SensorDesign base);
 
-/// Sets the planes and everything else that a space varies to a design's values.
+/// Sets the planes and everything else that a space decides on to a design's values.
 void set_design(Configuration& configuration, const SensorDesign& design, const DesignSpace& space,
                 std::string_view source);
 

@@ -18,6 +18,10 @@ void run_optimize(const CommandLine& command_line);
 /// interrupted goes on with --resume.
 void run_sweep(const CommandLine& command_line);
 
+/// The best designs of a sweep and of a search, both on screens that neither has seen, and what it
+/// took to find them.
+void run_compare(const CommandLine& command_line);
+
 /// The planes that the scaling law gives for the configured telescope and seeing, and what they are
 /// predicted to reach; with --verify simulated too.
 void run_advise(const CommandLine& command_line);

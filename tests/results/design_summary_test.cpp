@@ -1,6 +1,8 @@
 #include "results/design_summary.hpp"
 
+#include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -102,7 +104,8 @@ TEST(DesignSummary, HasBenchDistancesBehindARelay) {
   EXPECT_NEAR(json["planes_bench_m"].at(1), 5.0, 1e-12);
 }
 
-TEST(DesignSummary, TellsDesignsApartBySettingsOtherThanPlanes) {
+/// The default and designs that differ from it in one setting each.
+std::vector<SensorDesign> different_designs() {
   std::vector<SensorDesign> designs(17);
   designs[1].detector.pupil_pixels = 32;
   designs[2].detector.window = 6.0;
@@ -121,9 +124,49 @@ TEST(DesignSummary, TellsDesignsApartBySettingsOtherThanPlanes) {
   designs[15].detector.photon_rate = 1e8;
   designs[15].detector.exposure = 1e-3;
   designs[16].detector.exposure = 1e-3;
+  return designs;
+}
+
+TEST(DesignSummary, TellsDesignsApartBySettingsOtherThanPlanes) {
+  const std::vector<SensorDesign> designs = different_designs();
   std::set<std::string> texts;
   for (const SensorDesign& design : designs) texts.insert(to_json(design, {}, 0.125).dump());
   EXPECT_EQ(texts.size(), designs.size());
+}
+
+TEST(DesignSummary, GivesItsDesignBackToTheLastBit) {
+  for (SensorDesign design : different_designs()) {
+    design.planes = {-1e5 / 3.0, 0.0, 47123.456789012345};
+    design.detector.window *= 1.0 + 1e-15;
+    design.detector.read_noise = std::nextafter(0.1, 1.0);
+    design.reconstruction.tolerance *= 1.0 / 3.0;
+    const Json json = Json::parse(to_json(design, {}, 0.125).dump());
+    const SensorDesign back = design_from_json(json);
+    EXPECT_EQ(back.planes, design.planes);
+    EXPECT_EQ(back.detector.window, design.detector.window);
+    EXPECT_EQ(back.detector.photons, design.detector.photons);
+    EXPECT_EQ(back.detector.read_noise, design.detector.read_noise);
+    EXPECT_EQ(back.reconstruction.tolerance, design.reconstruction.tolerance);
+    EXPECT_EQ(to_json(back, {}, 0.125), json) << "which tells designs apart";
+  }
+}
+
+TEST(DesignSummary, OfNoDesignIsRefused) {
+  const Json whole = to_json(SensorDesign(), {}, 0.125);
+  for (const char* member : {"planes_m", "pupil_pixels", "relaxation", "stopping", "exposure_s"}) {
+    Json json = whole;
+    json.erase(member);
+    EXPECT_THROW(design_from_json(json), Json::exception) << member;
+    json[member] = Json::object();
+    EXPECT_THROW(design_from_json(json), Json::exception) << member;
+  }
+  for (const char* word : {"stopping", "initial_guess", "outside", "unwrapping"}) {
+    Json json = whole;
+    json[word] = "best";
+    EXPECT_THAT([&] { design_from_json(json); },
+                testing::ThrowsMessage<std::runtime_error>(
+                    testing::StartsWith(std::string(word) + " is 'best', but should be ")));
+  }
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST_F(BadInput, OfTheCommandLine) {
                  "command line = --detector.pupil_pixel", "did you mean --detector.pupil_pixels?");
   expect_refused(
       "optimise", {}, "command = optimise",
-      "one of evaluate, screens, scale, sweep, optimize, law, advise, benchmark; did you "
+      "one of evaluate, screens, scale, sweep, optimize, compare, law, advise, benchmark; did you "
       "mean optimize?");
   expect_refused("evaluate", {"optimize"}, "command line = optimize", "nothing may follow");
   expect_refused("evaluate", {"--screens.count"}, "screens.count = (nothing)", "a whole number");

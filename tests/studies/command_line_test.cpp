@@ -103,7 +103,8 @@ TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
 
 TEST(CommandLine, AsksForACommand) {
   const std::string message =
-      "command = (nothing): one of evaluate, screens, scale, sweep, optimize, law, advise, "
+      "command = (nothing): one of evaluate, screens, scale, sweep, optimize, compare, law, "
+      "advise, "
       "benchmark; "
       "nlcwfs --help explains them";
   EXPECT_EQ(parse_message({}), message);
@@ -111,8 +112,8 @@ TEST(CommandLine, AsksForACommand) {
   EXPECT_EQ(message_of([] { parse_command_line(0, std::vector<const char*>{nullptr}.data()); }),
             message);
   EXPECT_EQ(parse_message({"optimise"}),
-            "command = optimise: one of evaluate, screens, scale, sweep, optimize, law, advise, "
-            "benchmark; did you mean optimize?");
+            "command = optimise: one of evaluate, screens, scale, sweep, optimize, compare, law, "
+            "advise, benchmark; did you mean optimize?");
   EXPECT_THAT(parse_message({""}), StartsWith("command = (nothing): one of "));
 }
 
@@ -121,6 +122,20 @@ TEST(CommandLine, NamesAStrayArgument) {
             "command line = m: nothing may follow the command evaluate but options, such as "
             "--telescope.diameter 0.5m");
   EXPECT_THAT(parse_message({"evaluate", "optimize"}), StartsWith("command line = optimize: "));
+}
+
+TEST(CommandLine, TakesTheArgumentsOfACommand) {
+  EXPECT_THAT(parse({"compare", "a", "--quiet", "b c"}).arguments, ElementsAre("a", "b c"));
+  for (const auto& arguments :
+       std::vector<std::vector<const char*>>{{"compare"}, {"compare", "a"}}) {
+    EXPECT_THAT(parse_message(arguments),
+                EndsWith("2 folders must follow compare: nlcwfs compare SWEEP OPTIMIZE"));
+  }
+  EXPECT_THAT(
+      parse_message({"compare", "a", "b", "c"}),
+      StartsWith("command line = c: nothing may follow the command compare SWEEP OPTIMIZE "));
+  EXPECT_THAT(parse_message({"compare", "a", ""}), StartsWith("command line = (nothing): "));
+  EXPECT_TRUE(parse({"evaluate"}).arguments.empty());
 }
 
 TEST(CommandLine, SuggestsTheNearestOption) {
@@ -175,7 +190,9 @@ TEST(CommandLine, OnlyAdviseVerifiesOnDemand) {
   EXPECT_FALSE(parse({"advise"}).verify);
   for (const Command& command : commands()) {
     if (command.name == "advise") continue;
-    EXPECT_EQ(parse_message({"--verify", command.name.c_str()}),
+    std::vector<const char*> arguments{"--verify", command.name.c_str()};
+    arguments.resize(2 + command.arguments.size(), "folder");
+    EXPECT_EQ(parse_message(arguments),
               "command line = --verify: only advise takes it; leave it away with " + command.name);
   }
 }
@@ -211,7 +228,9 @@ TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
 TEST(CommandLine, OnlySomeCommandsResume) {
   for (const Command& command : commands()) {
     if (command.resumable) continue;
-    EXPECT_EQ(parse_message({command.name.c_str(), "--resume", "run"}),
+    std::vector<const char*> arguments{"--resume", "run", command.name.c_str()};
+    arguments.resize(3 + command.arguments.size(), "folder");
+    EXPECT_EQ(parse_message(arguments),
               "--resume = run: " + command.name +
                   " cannot go on with a run; begin it anew with --config run/config.cfg");
   }
