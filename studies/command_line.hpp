@@ -24,7 +24,7 @@ const std::vector<Command>& commands();
 
 /// What the user asked for.
 struct CommandLine {
-  std::string command;  ///< one of commands(); empty only with help or version
+  std::string command;                 ///< one of commands(); empty only with help or version
   std::vector<std::string> arguments;  ///< what follows the command, as many as it takes
   Configuration configuration;
   std::optional<std::filesystem::path> output;  ///< directory for the results

@@ -1,7 +1,9 @@
 #include "model/input_error.hpp"
 #include "objectives/design_comparison.hpp"
+#include "results/archive.hpp"
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
+#include "studies/grid_picture.hpp"
 #include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
@@ -13,6 +15,7 @@
 #include <array>
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -30,6 +33,7 @@ using Json = nlohmann::ordered_json;
 struct FinishedRun {
   std::filesystem::path folder;
   Configuration configuration = {};
+  Json summary = {};
   SensorDesign best = {};
   int designs = 0;
   std::int64_t reconstructions = 0;
@@ -54,18 +58,18 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
   run.configuration.read_file(folder / "config.cfg");
   try {
     std::ifstream file(folder / "summary.json");
-    const Json summary = Json::parse(file);
-    const std::string made_by = summary.at("command");
+    run.summary = Json::parse(file);
+    const std::string made_by = run.summary.at("command");
     if (made_by != command) {
       throw InputError(argument, shown,
                        fmt::format("is a run of {}; give first the folder of a sweep, then that of "
                                    "an optimize",
                                    made_by));
     }
-    run.best = design_from_json(summary.at("best"));
-    run.designs = summary.at("evaluations");
-    run.reconstructions = summary.at("reconstructions");
-    run.seconds = summary.at("wall_seconds");
+    run.best = design_from_json(run.summary.at("best"));
+    run.designs = run.summary.at("evaluations");
+    run.reconstructions = run.summary.at("reconstructions");
+    run.seconds = run.summary.at("wall_seconds");
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
@@ -235,6 +239,25 @@ TriedDesign verified(const FinishedRun& run, const std::string& name, const Desi
   return tried;
 }
 
+/// The designs that a search tried, over the sweep's map of the cost.
+/// @return why there is no picture; nothing where there is one
+std::optional<std::string> write_path_picture(const FinishedRun& sweep, const FinishedRun& optimize,
+                                              const Telescope& telescope, const Seeing& seeing,
+                                              const OutputFolder& folder) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  SearchPath path{.designs = {}, .best = {optimize.best, nan}};
+  const Archive archive = Archive::reopened(optimize.folder / "archive.sqlite");
+  for (const ArchivedEvaluation& evaluation : archive.evaluations()) {
+    if (evaluation.stage != "search" || !evaluation.failure.empty()) continue;
+    path.designs.push_back({design_from_json(Json::parse(evaluation.design)), evaluation.cost});
+    if (path.designs.back().design.planes == optimize.best.planes) {
+      path.best.cost = evaluation.cost;
+    }
+  }
+  return write_grid_picture(picture_title(telescope, seeing), sweep.summary.at("grid"), "cost",
+                            {sweep.best, nan}, folder.file("path"), path);
+}
+
 std::string_view verdict_word(Verdict verdict) {
   switch (verdict) {
     case Verdict::better:
@@ -309,6 +332,14 @@ void run_compare(const CommandLine& command_line) {
            {"reconstructions", reconstructions_ratio},
            {"seconds", seconds_ratio}}}}}});
 
+  try {
+    if (const auto reason =
+            write_path_picture(sweep, optimize, telescope, seeing, record.folder())) {
+      fmt::print("note: there is no path.svg: {}\n", *reason);
+    }
+  } catch (const std::exception& error) {
+    fmt::print("note: there is no path.svg: {}\n", error.what());
+  }
   const Performance swept_performance = pooled(swept.performances);
   const Performance found_performance = pooled(found.performances);
   fmt::print("{}\n\n", telescope_line(telescope, seeing));

@@ -29,11 +29,16 @@ std::string with_error(const MeanAndError& value) {
   return fmt::format("{:.{}f} +- {:.{}f}", value.mean, decimals, value.standard_error, decimals);
 }
 
+std::string picture_title(const Telescope& telescope, const Seeing& seeing) {
+  return fmt::format("{:.4g} m telescope at {}, D/r0 = {:.4g}", telescope.diameter,
+                     format_length(telescope.wavelength),
+                     telescope.diameter / seeing.fried_parameter);
+}
+
 std::string telescope_line(const Telescope& telescope, const Seeing& seeing) {
   std::string line =
-      fmt::format("{:.4g} m telescope at {}, D/r0 = {:.4g}: r0 = {:.3g} cm, its Talbot distance {}",
-                  telescope.diameter, format_length(telescope.wavelength),
-                  telescope.diameter / seeing.fried_parameter, 100.0 * seeing.fried_parameter,
+      fmt::format("{}: r0 = {:.3g} cm, its Talbot distance {}", picture_title(telescope, seeing),
+                  100.0 * seeing.fried_parameter,
                   format_length(talbot_distance(seeing.fried_parameter, telescope.wavelength)));
   if (seeing.outer_scale) line += ", outer scale " + format_length(*seeing.outer_scale);
   return line;

@@ -13,6 +13,9 @@ namespace nlcwfs {
 /// "0.52 +- 0.03": a mean with its standard error, to the error's second digit.
 std::string with_error(const MeanAndError& value);
 
+/// "0.5 m telescope at 532 nm, D/r0 = 4"
+std::string picture_title(const Telescope& telescope, const Seeing& seeing);
+
 /// One line: "0.5 m telescope at 532 nm, D/r0 = 4: r0 = 12.5 cm, its Talbot distance 58.74 km".
 std::string telescope_line(const Telescope& telescope, const Seeing& seeing);
 

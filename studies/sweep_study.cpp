@@ -4,6 +4,7 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
+#include "studies/grid_picture.hpp"
 #include "studies/interrupt.hpp"
 #include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
@@ -12,8 +13,10 @@
 #include "studies/trial_summary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -350,12 +353,19 @@ Json grid_object(const DesignGrid& grid, const std::vector<const Outcome*>& poin
       values.push_back(axis_value(grid, axis, i));
     object["axes"].push_back({{"name", axis.name}, {"unit", axis_unit(axis)}, {"values", values}});
   }
+  Json errors;
   object["cost"] = matrix_of(grid, points, [](const Outcome& point) { return point.cost.mean; });
+  errors["cost"] =
+      matrix_of(grid, points, [](const Outcome& point) { return point.cost.standard_error; });
   object["violation"] = matrix_of(grid, points, [](const Outcome& p) { return p.violation; });
   for (std::size_t i = 0; i < performance_metrics().size(); ++i) {
-    object[std::string(performance_metrics()[i].name)] =
+    const std::string name(performance_metrics()[i].name);
+    object[name] =
         matrix_of(grid, points, [i](const Outcome& point) { return point.metrics[i].mean; });
+    errors[name] = matrix_of(grid, points,
+                             [i](const Outcome& point) { return point.metrics[i].standard_error; });
   }
+  object["standard_error"] = errors;
   return object;
 }
 
@@ -377,6 +387,24 @@ TriedDesign verified_best(const GridDesign& best, const Task& task, RunRecord& r
          .key = best.key});
   }
   return verified;
+}
+
+/// The maps of the figures that people look at first.
+/// @return notes where there is no map
+std::vector<std::string> write_maps(const Task& task, const Json& grid, const CostedDesign& best,
+                                    const OutputFolder& folder) {
+  constexpr std::array<std::pair<const char*, const char*>, 3> maps{
+      {{"cost", "map-cost"},
+       {"residual_wfe_nm", "map-residual_wfe"},
+       {"fractional_loops", "map-fractional_loops"}}};
+  std::vector<std::string> notes;
+  for (const auto& [figure, name] : maps) {
+    if (const auto reason = write_grid_picture(picture_title(task.telescope, task.seeing), grid,
+                                               figure, best, folder.file(name))) {
+      notes.push_back(fmt::format("there is no {}.svg: {}", name, *reason));
+    }
+  }
+  return notes;
 }
 
 }  // namespace
@@ -412,13 +440,19 @@ void run_sweep(const CommandLine& command_line) {
   Configuration best_configuration = configuration;
   set_design(best_configuration, best.design, task.grid.space(), "by the sweep");
   record.folder().write("best.cfg", best_configuration.dump());
+  const Json grid = grid_object(task.grid, points);
+  std::vector<std::string> notes = task.notes;
+  std::ranges::move(
+      write_maps(task, grid, {best.design, mean_and_standard_error(on_search_screens.costs).mean},
+                 record.folder()),
+      std::back_inserter(notes));
   const auto failures = static_cast<int>(std::ranges::count_if(
       sweep.outcomes(), [](const auto& outcome) { return !outcome->failure.empty(); }));
   const auto evaluations = static_cast<int>(sweep.designs().size());
   record.write_summary(
       {{"best", to_json(best, task.verification)},
        {"best_on_search_screens", to_json(on_search_screens, task.trial)},
-       {"grid", grid_object(task.grid, points)},
+       {"grid", grid},
        {"points", task.grid.size()},
        {"evaluations", evaluations},
        {"failures", failures},
@@ -430,7 +464,7 @@ void run_sweep(const CommandLine& command_line) {
 
   const Performance performance = pooled(best.performances);
   const Performance search_performance = pooled(on_search_screens.performances);
-  for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
   fmt::print("Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
              evaluations, task.grid.size(), task.trial.screen_count(),

@@ -8,9 +8,9 @@ namespace nlcwfs {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
-using testing::IsSupersetOf;
 using testing::SizeIs;
 using testing::StartsWith;
 using Json = nlohmann::json;
@@ -37,7 +37,8 @@ TEST_F(CompareStudy, LeavesItsFiles) {
   EXPECT_THAT(finished.output, AllOf(StartsWith("0.5 m telescope"),
                                      HasSubstr("seed 1000004, which neither has seen"),
                                      HasSubstr("what it took"), EndsWith("Results are in run.\n")));
-  EXPECT_THAT(names_in("run"), IsSupersetOf({"archive.sqlite", "config.cfg", "summary.json"}));
+  EXPECT_THAT(names_in("run"),
+              ElementsAre("archive.sqlite", "config.cfg", "path.png", "path.svg", "summary.json"));
   const Json json = summary("run");
   EXPECT_EQ(json.at("command"), "compare");
   EXPECT_EQ(json.at("config").at("verify.seed"), "1000004");

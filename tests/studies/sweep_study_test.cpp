@@ -15,7 +15,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
-using testing::IsSupersetOf;
 using testing::SizeIs;
 using testing::StartsWith;
 using Json = nlohmann::json;
@@ -69,8 +68,11 @@ const std::vector<std::string> grid{"--sweep.z_near", "20km:60km:3",        "--s
 
 TEST_F(SweepStudy, LeavesItsFiles) {
   const ProgramRun finished = done("sweep", "run", grid);
-  EXPECT_THAT(names_in("run"), IsSupersetOf({"archive.sqlite", "best.cfg", "config.cfg",
-                                             "summary.json", "sweep.csv"}));
+  EXPECT_THAT(
+      names_in("run"),
+      ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "map-cost.png", "map-cost.svg",
+                  "map-fractional_loops.png", "map-fractional_loops.svg", "map-residual_wfe.png",
+                  "map-residual_wfe.svg", "summary.json", "sweep.csv"));
   EXPECT_THAT(finished.output,
               AllOf(StartsWith("0.5 m telescope"), HasSubstr("12 designs at 12 points of a grid"),
                     HasSubstr("2 fresh"), EndsWith("Results are in run.\n")));
@@ -100,6 +102,10 @@ TEST_F(SweepStudy, ItsMatricesAndItsTableAgree) {
        {"cost", "residual_wfe_nm", "wrapped_wfe_nm", "total_wfe_nm", "field_strehl", "loops",
         "fractional_loops", "seconds", "fft_count", "violation"}) {
     ASSERT_EQ(object.at(metric).size(), 3u);
+    if (metric != std::string("violation")) {
+      EXPECT_EQ(object.at("standard_error").at(metric)[1][1][1],
+                std::stod(rows[7].at(metric + std::string("_standard_error"))));
+    }
     for (std::size_t row = 0; row < rows.size(); ++row) {
       EXPECT_EQ(object[metric][row / 4][row / 2 % 2][row % 2], std::stod(rows[row].at(metric)));
     }
@@ -136,6 +142,15 @@ TEST_F(SweepStudy, ItsBestIsTheLeastOfTheGridAndIsVerified) {
                                 "--screens.seed", "1000003", "--simulation.pupil_samples", "64"});
   ASSERT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(repeatable_summary("run")["best"], repeatable_summary("again")["design"]);
+}
+
+TEST_F(SweepStudy, HasNoPicturesWithoutGnuplotAndSaysSo) {
+  const ProgramRun finished =
+      run({"sweep", "--config", "tiny.cfg", "--output", "run"}, "PATH=/nowhere ");
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  EXPECT_THAT(finished.output, HasSubstr("note: there is no map-cost.svg: gnuplot: No such file"));
+  EXPECT_THAT(names_in("run"),
+              ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "summary.json", "sweep.csv"));
 }
 
 TEST_F(SweepStudy, ADesignThatFailsLeavesAGap) {

@@ -1,0 +1,244 @@
+#include "studies/grid_picture.hpp"
+
+#include "objectives/design_space.hpp"
+#include "results/map_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// The numbers of nested arrays, the last index running fastest; NaN for null.
+void flatten(const Json& matrix, std::vector<double>& numbers) {
+  if (matrix.is_array()) {
+    for (const Json& element : matrix) flatten(element, numbers);
+  } else {
+    numbers.push_back(matrix.is_null() ? nan : matrix.get<double>());
+  }
+}
+
+std::vector<double> flattened(const Json& matrix) {
+  std::vector<double> numbers;
+  flatten(matrix, numbers);
+  return numbers;
+}
+
+/// A name of a summary for people, with its unit behind a comma: "total wfe, nm".
+std::string label_of(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> labels{
+      {{"residual_wfe_nm", "residual WFE, nm"},
+       {"fractional_loops", "fractional loops"},
+       {"z_near", "distance of the near pair"},
+       {"z_far", "distance of the far pair"},
+       {"z_third", "distance of the third pair"},
+       {"order", "visiting order"},
+       {"detector_window", "detector window, pupil diameters"},
+       {"reconstruction_window", "reconstruction window, pupil diameters"}}};
+  const auto known = std::ranges::find(labels, name, &decltype(labels)::value_type::first);
+  if (known != labels.end()) return std::string(known->second);
+  if (name.size() == 2 && name[0] == 'z') return fmt::format("distance of plane {}", name[1]);
+  std::string label(name);
+  std::ranges::replace(label, '_', ' ');
+  return label;
+}
+
+/// An axis of the grid as it is drawn.
+struct GridPictureAxis {
+  explicit GridPictureAxis(const Json& axis);
+
+  /// Where a design stands on it; NaN where nowhere.
+  double place_of(const SensorDesign& design) const;
+
+  std::string name;
+  PictureAxis drawn;
+  double unit = 1.0;  ///< of what is drawn, SI
+};
+
+GridPictureAxis::GridPictureAxis(const Json& axis) : name(axis.at("name")) {
+  drawn.label = label_of(name);
+  for (const Json& value : axis.at("values")) {
+    if (value.is_string()) {
+      drawn.values.push_back(double(drawn.words.size()));
+      drawn.words.push_back(value);
+    } else {
+      drawn.values.push_back(value);
+    }
+  }
+  if (axis.at("unit") != "m") return;
+  double greatest = 0.0;
+  for (const double value : drawn.values) greatest = std::max(greatest, std::abs(value));
+  constexpr std::array<std::pair<double, std::string_view>, 4> units{
+      {{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-9, "nm"}}};
+  const auto chosen = std::ranges::find_if(
+      units, [&](const auto& candidate) { return greatest >= candidate.first; });
+  const auto& [size, word] = chosen == units.end() ? units.back() : *chosen;
+  unit = size;
+  drawn.label += fmt::format(", {}", word);
+  for (double& value : drawn.values) value /= unit;
+}
+
+double GridPictureAxis::place_of(const SensorDesign& design) const {
+  if (name == "plane_count") return double(design.planes.size());
+  const auto pairs = symmetric_planes(design.planes);
+  const auto pair = std::ranges::find(pair_names, name);
+  if (pair != std::end(pair_names)) {
+    const auto index = static_cast<std::size_t>(pair - std::begin(pair_names));
+    return pairs && index < pairs->pairs.size() ? pairs->pairs[index] / unit : nan;
+  }
+  if (name == "order") {
+    if (!pairs) return nan;
+    std::string word;
+    for (const int number : pairs->order) word += fmt::format("{}", number);
+    const auto found = std::ranges::find(drawn.words, word);
+    return found == drawn.words.end() ? nan : double(found - drawn.words.begin());
+  }
+  if (name.size() == 2 && name[0] == 'z') {
+    const auto plane = static_cast<std::size_t>(name[1] - '1');
+    return plane < design.planes.size() ? design.planes[plane] / unit : nan;
+  }
+  const auto properties = design_properties();
+  const auto property = std::ranges::find(properties, name, &DesignProperty::name);
+  if (property == properties.end()) return nan;
+  const double value = property->get(design);
+  if (drawn.words.empty()) return value / unit;
+  // A word's value is its number among all words, of which the axis may have some.
+  const std::string word =
+      static_cast<InitialGuess>(std::lround(value)) == InitialGuess::flat ? "flat" : "centroid";
+  const auto found = std::ranges::find(drawn.words, word);
+  return found == drawn.words.end() ? nan : double(found - drawn.words.begin());
+}
+
+/// The points of a grid as they are drawn: what its axes other than those drawn have at their best.
+class DrawnGrid {
+ public:
+  explicit DrawnGrid(const Json& grid);
+
+  /// Those that are drawn, in the grid's order: none to two.
+  const std::vector<GridPictureAxis>& axes() const { return axes_; }
+  bool hides_axes() const { return hides_axes_; }
+
+  /// Of each point that is drawn, the last axis running fastest.
+  std::vector<double> values_of(const Json& matrix) const;
+
+ private:
+  std::vector<GridPictureAxis> axes_;
+  bool hides_axes_ = false;
+  std::vector<std::size_t> chosen_;  ///< the grid's point that stands for each drawn one
+};
+
+DrawnGrid::DrawnGrid(const Json& grid) {
+  const Json& axes = grid.at("axes");
+  const auto length = [&](std::size_t axis) { return axes[axis].at("values").size(); };
+  std::vector<std::size_t> drawn;
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    if (length(axis) > 1) drawn.push_back(axis);
+  }
+  std::ranges::stable_sort(drawn, std::ranges::greater(), length);
+  if (drawn.size() > 2) {
+    hides_axes_ = true;
+    drawn.resize(2);
+  }
+  std::ranges::sort(drawn);
+  std::size_t count = 1;
+  for (const std::size_t axis : drawn) {
+    axes_.emplace_back(axes[axis]);
+    count *= length(axis);
+  }
+
+  const std::vector<double> costs = flattened(grid.at("cost"));
+  chosen_.assign(count, costs.size());
+  for (std::size_t point = 0; point < costs.size(); ++point) {
+    std::size_t rest = point;
+    std::size_t place = 0;
+    std::size_t stride = 1;
+    for (std::size_t axis = axes.size(); axis-- > 0;) {
+      if (std::ranges::count(drawn, axis) > 0) {
+        place += rest % length(axis) * stride;
+        stride *= length(axis);
+      }
+      rest /= length(axis);
+    }
+    std::size_t& chosen = chosen_[place];
+    const bool is_first = chosen == costs.size() || std::isnan(costs[chosen]);
+    if (is_first || costs[point] < costs[chosen]) chosen = point;
+  }
+}
+
+std::vector<double> DrawnGrid::values_of(const Json& matrix) const {
+  const std::vector<double> all = flattened(matrix);
+  std::vector<double> values;
+  for (const std::size_t point : chosen_) values.push_back(all.at(point));
+  return values;
+}
+
+}  // namespace
+
+std::optional<std::string> write_grid_picture(const std::string& title, const Json& grid,
+                                              const std::string& figure, const CostedDesign& best,
+                                              const std::filesystem::path& stem,
+                                              const std::optional<SearchPath>& search) {
+  const DrawnGrid drawn(grid);
+  const std::vector<GridPictureAxis>& axes = drawn.axes();
+  if (axes.empty()) return "the grid has one value on each axis";
+  const std::vector<double> values = drawn.values_of(grid.at(figure));
+
+  const auto point_of = [&](const CostedDesign& tried) {
+    return PicturePoint{axes[0].place_of(tried.design),
+                        axes.size() > 1 ? axes[1].place_of(tried.design) : tried.cost};
+  };
+  const auto is_on_picture = [](const PicturePoint& point) {
+    return std::isfinite(point.x) && std::isfinite(point.y);
+  };
+  PictureOverlay overlay;
+  if (search) {
+    overlay.path_label = axes.size() > 1 ? "search, in its order" : "designs of the search";
+    for (const CostedDesign& tried : search->designs) {
+      const PicturePoint point = point_of(tried);
+      if (is_on_picture(point)) overlay.path.push_back(point);
+    }
+    if (const PicturePoint point = point_of(search->best); is_on_picture(point)) {
+      overlay.marks.push_back({"best of the search", point});
+    }
+  }
+  // A line has the place of its best at the figure's own height.
+  PicturePoint place = point_of(best);
+  if (axes.size() == 1) {
+    const auto& places = axes[0].drawn.values;
+    const auto nearest = std::ranges::min_element(
+        places, {}, [&](double value) { return std::abs(value - place.x); });
+    place.y = values[static_cast<std::size_t>(nearest - places.begin())];
+  }
+  if (is_on_picture(place)) overlay.marks.push_back({"best of the sweep", place});
+
+  const std::string label = label_of(figure);
+  const std::string whole_title =
+      drawn.hides_axes() ? fmt::format("{}, at the best of the other axes", title) : title;
+  if (axes.size() == 1) {
+    const std::vector<double> errors = drawn.values_of(grid.at("standard_error").at(figure));
+    LinePicture picture{whole_title, axes[0].drawn, label, {}, std::move(overlay)};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      picture.values.push_back({values[i], errors[i]});
+    }
+    return write_picture(picture, stem);
+  }
+  MapPicture picture{whole_title, axes[0].drawn, axes[1].drawn, label, {}, std::move(overlay)};
+  const std::size_t rows = axes[1].drawn.values.size();
+  for (std::size_t first = 0; first < values.size(); first += rows) {
+    picture.values.emplace_back(values.begin() + std::ptrdiff_t(first),
+                                values.begin() + std::ptrdiff_t(first + rows));
+  }
+  return write_picture(picture, stem);
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "model/sensor_design.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace nlcwfs {
+
+/// A design with what it costs.
+struct CostedDesign {
+  SensorDesign design;
+  double cost;
+};
+
+/// A search to draw over a grid.
+struct SearchPath {
+  std::vector<CostedDesign> designs;  ///< in the order of their evaluation
+  CostedDesign best;
+};
+
+/// Draws a figure of a sweep's grid: a map over two axes, a line over one. Of more axes than two,
+/// the two of the most values are drawn, and at each of their points the design of the others that
+/// costs the least.
+/// @param title   of what the designs are for
+/// @param grid    the object `grid` of a sweep's summary
+/// @param figure  one of its matrices: "cost", "residual_wfe_nm", ...
+/// @param best    of the sweep
+/// @param stem    the files' path without .svg and .png
+/// @return why there is no picture; nothing where there is one
+std::optional<std::string> write_grid_picture(const std::string& title,
+                                              const nlohmann::ordered_json& grid,
+                                              const std::string& figure, const CostedDesign& best,
+                                              const std::filesystem::path& stem,
+                                              const std::optional<SearchPath>& search = {});
+
+}  // namespace nlcwfs
