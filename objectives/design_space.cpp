@@ -494,8 +494,7 @@ double DesignSpace::value(int sub_space, std::size_t variable, double x) const {
 
 bool DesignSpace::varies(std::string_view property) const {
   return std::ranges::any_of(regions_, [&](const Region& region) {
-    return region.fixed.contains(property) ||
-           std::ranges::count(region.axes, property, &Axis::name) > 0;
+    return std::ranges::count(region.axes, property, &Axis::name) > 0;
   });
 }
 

@@ -119,10 +119,11 @@ class DesignSpace {
   /// The property's value, SI, at a value of the variable.
   double value(int sub_space, std::size_t variable, double x) const;
 
-  /// Whether a property is one of the space's, so that it is not as in `base`.
+  /// Whether designs of the space differ in a property.
   bool varies(std::string_view property) const;
 
-  /// Whether the space has a domain of a property, be it of one value: not the base decides on it.
+  /// Whether the space has a domain of a property, be it of one value, so that it may not be as in
+  /// `base`.
   bool decides(std::string_view property) const { return options_.domains.contains(property); }
 
  private:

@@ -109,7 +109,7 @@ std::string search_text(const DesignSearch& task, const DesignSearchResult& resu
 std::string choices_text(const DesignSearch& task, const SensorDesign& design) {
   std::string text;
   for (const DesignProperty& property : design_properties()) {
-    if (!task.space.varies(property.name)) continue;
+    if (!task.space.decides(property.name)) continue;
     const double value = property.get(design);
     const std::string shown = property.name == "initial_guess"
                                   ? (value == 0.0 ? "flat" : "centroid")

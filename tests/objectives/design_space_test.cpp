@@ -201,7 +201,9 @@ TEST(DesignSpace, VariesWhatItIsToldAndNothingElse) {
               .domains = {{"z_near", std::vector{47e3}}, {"tolerance", ValueRange{1e-10, 1e-8}}}});
   EXPECT_TRUE(space.varies("tolerance"));
   EXPECT_TRUE(space.varies("z_far"));
-  EXPECT_TRUE(space.varies("z_near"));  // not as in the base
+  EXPECT_FALSE(space.varies("z_near"));
+  EXPECT_TRUE(space.decides("z_near"));
+  EXPECT_FALSE(space.decides("z_far"));
   EXPECT_FALSE(space.varies("relaxation"));
   const std::vector<Variable> variables = space.sub_spaces().front().variables;
   ASSERT_THAT(variables, SizeIs(3));
