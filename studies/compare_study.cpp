@@ -36,7 +36,7 @@ struct FinishedRun {
   Json summary = {};
   SensorDesign best = {};
   int designs = 0;
-  std::int64_t reconstructions = 0;
+  std::int64_t reconstructions = 0;  ///< without those of the verification
   double seconds = 0.0;
 };
 
@@ -68,8 +68,8 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
     }
     run.best = design_from_json(run.summary.at("best"));
     run.designs = run.summary.at("evaluations");
-    run.reconstructions = run.summary.at("reconstructions");
-    run.seconds = run.summary.at("wall_seconds");
+    run.reconstructions = run.summary.at("search_reconstructions");
+    run.seconds = run.summary.at("search_seconds");
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
@@ -93,7 +93,8 @@ const std::vector<DesignKey>& design_keys() {
       {"reconstruction.relaxation", {"relaxation", "relaxation_start", "relaxation_end"}},
       {"reconstruction.initial_guess", {"initial_guess"}},
       {"reconstruction.oversampling", {"reconstruction_oversampling"}},
-      {"reconstruction.tolerance", {"tolerance"}}};
+      {"reconstruction.tolerance", {"tolerance"}},
+      {"detector.exposure", {"exposure"}}};
   return keys;
 }
 
@@ -355,12 +356,12 @@ void run_compare(const CommandLine& command_line) {
       performance_table({{"sweep", &swept_performance, swept.costs},
                          {"optimize", &found_performance, found.costs}}));
   fmt::print("\n{}\n\n", verdict_text(gain, mean_and_standard_error(swept.costs).mean));
-  fmt::print("  {:<20} {:>14} {:>14} {:>10}\n", "what it took", "sweep", "optimize", "ratio");
-  fmt::print("  {:<20} {:>14} {:>14} {:>10.3g}\n", "designs", sweep.designs, optimize.designs,
+  fmt::print("  {:<22} {:>14} {:>14} {:>10}\n", "what finding it took", "sweep", "optimize", "ratio");
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "designs", sweep.designs, optimize.designs,
              designs_ratio);
-  fmt::print("  {:<20} {:>14} {:>14} {:>10.3g}\n", "reconstructions", sweep.reconstructions,
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "reconstructions", sweep.reconstructions,
              optimize.reconstructions, reconstructions_ratio);
-  fmt::print("  {:<20} {:>14} {:>14} {:>10.3g}\n\n", "time", duration_text(sweep.seconds),
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n\n", "time", duration_text(sweep.seconds),
              duration_text(optimize.seconds), seconds_ratio);
   fmt::print("{}\n", record.closing_line());
 }

@@ -456,6 +456,9 @@ void run_sweep(const CommandLine& command_line) {
        {"points", task.grid.size()},
        {"evaluations", evaluations},
        {"failures", failures},
+       {"search_reconstructions", std::int64_t(evaluations - failures) *
+                                      task.trial.screen_count() *
+                                      static_cast<std::int64_t>(task.trial.conditions().size())},
        {"reconstructions", (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
                             task.verification.screen_count()) *
                                static_cast<std::int64_t>(task.trial.conditions().size())},

@@ -82,6 +82,7 @@ TEST_F(SweepStudy, LeavesItsFiles) {
   EXPECT_EQ(json.at("evaluations"), 12);
   EXPECT_EQ(json.at("failures"), 0);
   // Every design and once more the best on the sweep's 2 screens, the best on 2 fresh ones.
+  EXPECT_EQ(json.at("search_reconstructions"), 12 * 2);
   EXPECT_EQ(json.at("reconstructions"), 12 * 2 + 2 + 2);
   EXPECT_GT(json.at("wall_seconds"), json.at("search_seconds"));
   EXPECT_EQ(json.at("grid").at("axes"),
