@@ -319,6 +319,7 @@ std::optional<std::string> write_picture(const MapPicture& picture,
   if (values.least == values.greatest) values.greatest += std::max(1e-9, std::abs(values.least));
 
   std::vector<std::string> level_texts;
+  level_texts.reserve(levels.size());
   for (const double level : levels) level_texts.push_back(fmt::format("{:.12g}", level));
   std::vector<std::string> colours;
   for (std::size_t i = 0; i < viridis.size(); ++i) {

@@ -193,10 +193,20 @@ void parse_positional(const std::string& value, CommandLine& result,
   result.command = value;
 }
 
-void require_arguments(const CommandLine& command_line) {
+/// @throws InputError where the command or its arguments are missing, or it has no such flag
+void require_whole_command(const CommandLine& command_line) {
+  if (command_line.command.empty()) {
+    throw InputError(
+        "command", one_line(""),
+        fmt::format("one of {}; nlcwfs --help explains them", fmt::join(command_names(), ", ")));
+  }
   const Command& command = command_of(command_line.command);
+  if (command_line.verify && command.name != "advise") {
+    throw InputError("command line", "--verify",
+                     fmt::format("only advise takes it; leave it away with {}", command.name));
+  }
   const std::size_t given = command_line.arguments.size();
-  if (given == command.arguments.size()) return;
+  if (given == command.arguments.size() || command_line.dump_config) return;
   throw InputError("command line", given == 0 ? one_line("") : one_line(command_line.arguments[0]),
                    fmt::format("{} folders must follow {}: nlcwfs {}", command.arguments.size(),
                                command.name, fmt::join(usage_words(command), " ")));
@@ -302,16 +312,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     }
   }
   if (result.help || result.version) return result;
-  if (result.command.empty()) {
-    throw InputError(
-        "command", one_line(""),
-        fmt::format("one of {}; nlcwfs --help explains them", fmt::join(command_names(), ", ")));
-  }
-  if (result.verify && result.command != "advise") {
-    throw InputError("command line", "--verify",
-                     fmt::format("only advise takes it; leave it away with {}", result.command));
-  }
-  if (!result.dump_config) require_arguments(result);
+  require_whole_command(result);
   if (result.resume) {
     const bool configured = preset || !files.empty() || !values.empty() || result.output;
     result.configuration = resumed_configuration(result, configured);

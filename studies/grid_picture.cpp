@@ -45,7 +45,7 @@ std::string label_of(std::string_view name) {
        {"order", "visiting order"},
        {"detector_window", "detector window, pupil diameters"},
        {"reconstruction_window", "reconstruction window, pupil diameters"}}};
-  const auto known = std::ranges::find(labels, name, &decltype(labels)::value_type::first);
+  const auto* const known = std::ranges::find(labels, name, &decltype(labels)::value_type::first);
   if (known != labels.end()) return std::string(known->second);
   if (name.size() == 2 && name[0] == 'z') return fmt::format("distance of plane {}", name[1]);
   std::string label(name);
@@ -80,7 +80,7 @@ GridPictureAxis::GridPictureAxis(const Json& axis) : name(axis.at("name")) {
   for (const double value : drawn.values) greatest = std::max(greatest, std::abs(value));
   constexpr std::array<std::pair<double, std::string_view>, 4> units{
       {{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-9, "nm"}}};
-  const auto chosen = std::ranges::find_if(
+  const auto* const chosen = std::ranges::find_if(
       units, [&](const auto& candidate) { return greatest >= candidate.first; });
   const auto& [size, word] = chosen == units.end() ? units.back() : *chosen;
   unit = size;
@@ -91,7 +91,7 @@ GridPictureAxis::GridPictureAxis(const Json& axis) : name(axis.at("name")) {
 double GridPictureAxis::place_of(const SensorDesign& design) const {
   if (name == "plane_count") return double(design.planes.size());
   const auto pairs = symmetric_planes(design.planes);
-  const auto pair = std::ranges::find(pair_names, name);
+  const auto* const pair = std::ranges::find(pair_names, name);
   if (pair != std::end(pair_names)) {
     const auto index = static_cast<std::size_t>(pair - std::begin(pair_names));
     return pairs && index < pairs->pairs.size() ? pairs->pairs[index] / unit : nan;

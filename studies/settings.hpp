@@ -5,7 +5,6 @@
 #include "model/simulation.hpp"
 #include "model/telescope.hpp"
 #include "objectives/design_cost.hpp"
-#include "objectives/design_grid.hpp"
 #include "objectives/design_space.hpp"
 #include "objectives/design_trial.hpp"
 #include "studies/configuration.hpp"
@@ -53,11 +52,6 @@ DesignSpace search_space_of(const Configuration& configuration, const Telescope&
 /// Sets the planes and everything else that a space decides on to a design's values.
 void set_design(Configuration& configuration, const SensorDesign& design, const DesignSpace& space,
                 std::string_view source);
-
-/// The grid of the section sweep.
-/// @param base  gives everything else
-DesignGrid sweep_grid_of(const Configuration& configuration, const Telescope& telescope,
-                         SensorDesign base);
 
 /// Samples of the true field across the pupil; a matched truth has the detector's.
 int truth_samples(const Configuration& configuration);

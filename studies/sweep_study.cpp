@@ -1,5 +1,4 @@
 #include "model/input_error.hpp"
-#include "objectives/design_grid.hpp"
 #include "optimizer/problem.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
@@ -10,6 +9,7 @@
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
+#include "studies/sweep_grid.hpp"
 #include "studies/trial_summary.hpp"
 
 #include <algorithm>
@@ -22,6 +22,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <ranges>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -333,11 +334,12 @@ Json matrix_of(const DesignGrid& grid, const std::vector<const Outcome*>& points
     const bool has_value = point != nullptr && point->failure.empty();
     rows.push_back(has_value ? Json(value(*point)) : Json(nullptr));
   }
-  for (auto axis = grid.axes().rbegin(); axis != grid.axes().rend(); ++axis) {
+  // Cut into the innermost arrays, these into the next ones, ...
+  for (const GridAxis& axis : grid.axes() | std::views::reverse) {
+    const auto length = static_cast<std::ptrdiff_t>(axis.values.size());
     std::vector<Json> outer;
-    for (std::size_t first = 0; first < rows.size(); first += axis->values.size()) {
-      const auto begin = rows.begin() + std::ptrdiff_t(first);
-      outer.push_back(Json(Json::array_t(begin, begin + std::ptrdiff_t(axis->values.size()))));
+    for (auto begin = rows.begin(); begin != rows.end(); begin += length) {
+      outer.emplace_back(Json::array_t(begin, begin + length));
     }
     rows = std::move(outer);
   }
