@@ -51,8 +51,9 @@ std::vector<DesignMetric> make_metrics() {
   using Context = const MetricContext&;
   std::vector<DesignMetric> metrics;
   for (const PerformanceMetric& metric : performance_metrics()) {
-    metrics.push_back(
-        {metric.name, metric.unit, [metric](Screen screen, Context) { return metric(screen); }});
+    metrics.push_back({metric.name, metric.unit,
+                       [metric](Screen screen, Context) { return metric(screen); },
+                       metric.name == "field_strehl"});
   }
   const std::vector<DesignMetric> others{
       {"model_seconds", "s", model_seconds},
@@ -61,7 +62,7 @@ std::vector<DesignMetric> make_metrics() {
       {"plane_count", "",
        [](Screen, Context context) { return double(context.design.planes.size()); }},
       {"captured_energy", "",
-       [](Screen screen, Context) { return std::ranges::min(screen.captured_energy); }},
+       [](Screen screen, Context) { return std::ranges::min(screen.captured_energy); }, true},
       {"latency_seconds", "s", latency},
       {"servo_wfe_nm", "nm",
        [](Screen screen, Context context) { return servo_wfe(screen, context) / nm; }},
@@ -77,6 +78,14 @@ std::vector<DesignMetric> make_metrics() {
 double Operation::transform_seconds(const SensorDesign& design) const {
   const double samples = double(design.grid_width()) * design.grid_width();
   return 5.0 * samples * std::log2(samples) / fft_rate;
+}
+
+void DesignMetric::validate(const Operation& operation) const {
+  ScreenPerformance screen;
+  screen.loops = 1;
+  screen.captured_energy = {1.0};
+  const SensorDesign design;
+  (void)value(screen, {design, operation, 1.0});
 }
 
 const std::vector<DesignMetric>& design_metrics() {

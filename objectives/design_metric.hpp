@@ -40,6 +40,14 @@ struct DesignMetric {
   std::string_view unit;  ///< "nm", "s", ...; empty for what has none
   /// @throws InputError naming the key where the metric needs what is not set
   std::function<double(const ScreenPerformance&, const MetricContext&)> value;
+  bool higher_is_better = false;  ///< and 1 is the best; of the others 0 is
+
+  /// The metric as a figure to be minimised, or the metric of such a figure: its negative where
+  /// higher is better.
+  double minimised(double figure) const { return higher_is_better ? -figure : figure; }
+
+  /// @throws InputError naming the key where the metric needs what is not set
+  void validate(const Operation& operation) const;
 };
 
 /// Every figure of merit that a cost, a limit or a trade may be made of: performance_metrics(),

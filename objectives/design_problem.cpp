@@ -4,8 +4,9 @@
 
 namespace nlcwfs {
 
-DesignProblem::DesignProblem(const DesignSpace& space, const DesignTrial& trial)
-    : space_(space), trial_(trial) {}
+DesignProblem::DesignProblem(const DesignSpace& space, const DesignTrial& trial,
+                             std::vector<DesignMetric> objectives)
+    : space_(space), trial_(trial), objectives_(std::move(objectives)) {}
 
 std::string DesignProblem::key(const SearchPoint& point) const {
   return design_key(space_.design(point));
@@ -13,7 +14,12 @@ std::string DesignProblem::key(const SearchPoint& point) const {
 
 Assessment DesignProblem::assess(const SearchPoint& point, const GoesOn& goes_on) {
   TriedDesign tried = trial_.run(space_.design(point), goes_on);
-  return {.costs = tried.costs, .violation = tried.violation, .detail = std::move(tried)};
+  Assessment assessment{.costs = tried.costs, .violation = tried.violation};
+  for (const DesignMetric& objective : objectives_) {
+    assessment.objectives.push_back(objective.minimised(trial_.mean_of(tried, objective).mean));
+  }
+  assessment.detail = std::move(tried);
+  return assessment;
 }
 
 }  // namespace nlcwfs

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "objectives/design_metric.hpp"
 #include "objectives/design_space.hpp"
 #include "objectives/design_trial.hpp"
 #include "optimizer/problem.hpp"
@@ -13,7 +14,10 @@ namespace nlcwfs {
 class DesignProblem final : public Problem {
  public:
   /// @param space, trial  used by reference
-  DesignProblem(const DesignSpace& space, const DesignTrial& trial);
+  /// @param objectives    whose means, as figures to be minimised, are a design's objectives; none
+  ///                      where the cost alone counts
+  DesignProblem(const DesignSpace& space, const DesignTrial& trial,
+                std::vector<DesignMetric> objectives = {});
 
   std::vector<SubSpace> sub_spaces() const override { return space_.sub_spaces(); }
   /// See design_key.
@@ -26,6 +30,7 @@ class DesignProblem final : public Problem {
  private:
   const DesignSpace& space_;
   const DesignTrial& trial_;
+  std::vector<DesignMetric> objectives_;
 };
 
 }  // namespace nlcwfs

@@ -59,6 +59,18 @@ void DesignTrial::set_costs(TriedDesign& tried) const {
   tried.costs = cost_.aggregate.per_screen(costs);
 }
 
+MeanAndError DesignTrial::mean_of(const TriedDesign& tried, const DesignMetric& metric) const {
+  std::vector<std::vector<double>> values;
+  for (std::size_t k = 0; k < conditions_.size(); ++k) {
+    const Condition& condition = conditions_[k];
+    const SensorDesign design = condition.lit(tried.design);
+    const MetricContext context{design, cost_.operation, condition.fried_parameter};
+    values.push_back(tried.performances[k].samples_of(
+        [&](const ScreenPerformance& screen) { return metric.value(screen, context); }));
+  }
+  return mean_and_standard_error(CostAggregate{}.per_screen(values));
+}
+
 SensorDesign DesignTrial::checked(SensorDesign design) const {
   for (const Condition& condition : conditions_) {
     (void)condition.simulation->checked(condition.lit(design));

@@ -3,7 +3,9 @@
 #include "model/performance.hpp"
 #include "model/sensor_design.hpp"
 #include "model/simulation.hpp"
+#include "model/statistics.hpp"
 #include "objectives/design_cost.hpp"
+#include "objectives/design_metric.hpp"
 
 #include <functional>
 #include <memory>
@@ -48,6 +50,10 @@ class DesignTrial {
   /// @throws InputError where a condition's simulation cannot have the design
   TriedDesign run(const SensorDesign& design,
                   const std::function<bool(std::span<const double>)>& goes_on = {}) const;
+
+  /// A metric of a design that was tried here: its mean over all screens and conditions, and the
+  /// standard error of that over the screens, which the conditions have in common.
+  MeanAndError mean_of(const TriedDesign& tried, const DesignMetric& metric) const;
 
   /// See simulated_design.
   /// @throws InputError where a condition's simulation cannot have the design

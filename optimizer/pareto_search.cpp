@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -287,6 +288,39 @@ ParetoResult pareto_search(Problem& problem, const ParetoOptions& options) {
   result.failures = evaluator.failures();
   result.cache_hits = evaluator.cache_hits();
   return result;
+}
+
+std::vector<bool> dominated(const std::vector<std::vector<double>>& objectives) {
+  std::vector<bool> is_dominated(objectives.size(), false);
+  for (std::size_t i = 0; i < objectives.size(); ++i) {
+    for (std::size_t j = 0; j < objectives.size() && !is_dominated[i]; ++j) {
+      is_dominated[i] = pagmo::pareto_dominance(objectives[j], objectives[i]) ||
+                        (j < i && objectives[j] == objectives[i]);
+    }
+  }
+  return is_dominated;
+}
+
+std::vector<std::size_t> evenly_chosen(const std::vector<std::string>& groups, std::size_t most) {
+  std::map<std::string, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < groups.size(); ++i) members[groups[i]].push_back(i);
+  std::map<std::string, std::size_t> shares;
+  for (std::size_t left = std::min(most, groups.size()); left > 0;) {
+    for (const auto& [group, of_group] : members) {
+      if (left == 0 || shares[group] == of_group.size()) continue;
+      ++shares[group];
+      --left;
+    }
+  }
+  std::vector<std::size_t> chosen;
+  for (const auto& [group, of_group] : members) {
+    const std::size_t share = shares[group];
+    for (std::size_t i = 0; i < share; ++i) {
+      chosen.push_back(of_group[share == 1 ? 0 : i * (of_group.size() - 1) / (share - 1)]);
+    }
+  }
+  std::ranges::sort(chosen);
+  return chosen;
 }
 
 double hypervolume(const std::vector<EvaluatedDesign>& front,

@@ -56,6 +56,17 @@ struct ParetoResult {
 /// @throws whatever the observer throws
 ParetoResult pareto_search(Problem& problem, const ParetoOptions& options);
 
+/// Whether each of some designs is dominated by another: one that is as good in all objectives and
+/// better in one, or equal and before it.
+/// @param objectives  of each design, all to be minimised
+std::vector<bool> dominated(const std::vector<std::vector<double>>& objectives);
+
+/// Chooses among designs that stand in groups, so that the groups have as equal shares as their
+/// sizes allow and the chosen of a group are spread evenly from its first to its last.
+/// @param groups  the group of each design
+/// @return        the indices of min(most, groups.size()) designs, ascending
+std::vector<std::size_t> evenly_chosen(const std::vector<std::string>& groups, std::size_t most);
+
 /// The volume that is dominated by designs and dominates a reference point (Zitzler & Thiele 1998),
 /// in the product of the objectives' units. Designs that do not dominate the point add nothing.
 /// @param reference  as many objectives as the designs have

@@ -259,6 +259,7 @@ const std::vector<Command>& commands() {
        "hold a search against a sweep: both best designs on fresh screens, and what each cost",
        false,
        {"SWEEP", "OPTIMIZE"}},
+      {"trade", "try several objectives at once: the front of the best compromises, verified"},
       {"law", "fit the scaling law that advise follows to the best designs at several D/r0"},
       {"advise", "tell a telescope's planes from the scaling law; --verify simulates them"},
       {"benchmark", "time a configuration on this machine; writes files only with --output"}};

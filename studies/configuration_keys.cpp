@@ -488,6 +488,46 @@ std::vector<ConfigurationKey> make_keys() {
         .example = "all or 3412,1234"}});
   add_variations(keys, "sweep", Kind::axis);
   const std::vector<ConfigurationKey> others{
+      {.name = "trade.objectives",
+       .kind = Kind::text,
+       .default_text = "total_wfe_nm,model_seconds,detector_pixels,plane_count",
+       .description =
+           "METRICs that are traded, at least two; objective.limits holds too. The space is that "
+           "of the section search, where these are defaults of trade: plane_count 2:5, "
+           "pupil_pixels a quarter, a half and all of detector.pupil_pixels, relaxation -0.3:0.7, "
+           "initial_guess flat,centroid, reconstruction_oversampling 1,2.",
+       .example = "total_wfe_nm,latency_seconds"},
+      {.name = "trade.algorithm",
+       .kind = Kind::choice,
+       .default_text = "nsga2",
+       .description = "Method: a genetic algorithm (nsga2) or a particle swarm (nspso), both with "
+                      "non-dominated sorting.",
+       .choices = {"nsga2", "nspso"}},
+      {.name = "trade.population",
+       .kind = Kind::integer,
+       .default_text = "8",
+       .description = "Designs in each generation of each number of planes, a multiple of 4.",
+       .bounds = from_to(8, 1e6)},
+      {.name = "trade.budget",
+       .kind = Kind::integer,
+       .default_text = "240",
+       .description = "Designs that the search may try.",
+       .bounds = from_to(1, 1e9)},
+      {.name = "trade.verified",
+       .kind = Kind::integer,
+       .default_text = "24",
+       .description = "How many designs of the front are verified on fresh screens; of more, some "
+                      "of each number of planes and pixels.",
+       .bounds = from_to(1, 1e6)},
+      {.name = "trade.reference",
+       .kind = Kind::number_list,
+       .description = "Reference point of the hypervolume: a bound that counts as worthless, for "
+                      "each objective in its unit. Not set: a quarter of the wavelength for "
+                      "wavefront errors, the model time of reconstruction.max_loops loops and the "
+                      "detector pixels of seven planes as configured, seven planes; of other "
+                      "metrics the worst value in the first populations.",
+       .example = "100,0.5,400000,7"},
+
       {.name = "baseline.planes",
        .kind = Kind::length_list,
        .default_text = "-47km,47km,-180km,180km",

@@ -39,12 +39,7 @@ SearchOptions search_options_of(const Configuration& configuration,
   if (configuration.is_set("search.target")) {
     evaluation.target = configuration.number("search.target");
   }
-  for (const SubSpace& sub_space : sub_spaces) {
-    if (!sub_space.variables.empty()) continue;
-    throw InputError("search.plane_count", sub_space.name,
-                     "nothing of this design may vary; give a key of the section search a range or "
-                     "a list");
-  }
+  require_variables(sub_spaces);
   try {
     search_method(options.optimizer, sub_spaces);
   } catch (const std::invalid_argument& error) {
@@ -53,7 +48,28 @@ SearchOptions search_options_of(const Configuration& configuration,
   return options;
 }
 
-/// Tries each value that discrete variables have, and both ends of the others, one at a time.
+DesignTrial cheap_trial_of(const Configuration& configuration, bool pixels_vary) {
+  Configuration cheap = configuration;
+  for (const auto& [key, value] :
+       {std::pair("screens.count", configuration.value_text("search.cheap_screens")),
+        std::pair("search.precision", std::string("single"))}) {
+    cheap.set(key, value, "by the cheap search");
+  }
+  std::vector<std::string> ignored_notes;
+  return trial_of(cheap, "search.precision", ignored_notes, pixels_vary);
+}
+
+}  // namespace
+
+void require_variables(const std::vector<SubSpace>& sub_spaces) {
+  for (const SubSpace& sub_space : sub_spaces) {
+    if (!sub_space.variables.empty()) continue;
+    throw InputError("search.plane_count", sub_space.name,
+                     "nothing of this design may vary; give a key of the section search a range or "
+                     "a list");
+  }
+}
+
 void require_valid_designs(const DesignSpace& space, const DesignTrial& trial) {
   const std::vector<SubSpace> sub_spaces = space.sub_spaces();
   for (std::size_t s = 0; s < sub_spaces.size(); ++s) {
@@ -75,18 +91,35 @@ void require_valid_designs(const DesignSpace& space, const DesignTrial& trial) {
   }
 }
 
-DesignTrial cheap_trial_of(const Configuration& configuration, bool pixels_vary) {
-  Configuration cheap = configuration;
-  for (const auto& [key, value] :
-       {std::pair("screens.count", configuration.value_text("search.cheap_screens")),
-        std::pair("search.precision", std::string("single"))}) {
-    cheap.set(key, value, "by the cheap search");
+void require_verifiable_designs(const Configuration& configuration, const DesignSpace& space,
+                                const DesignTrial& verification,
+                                const std::vector<SensorDesign>& others) {
+  try {
+    for (const SensorDesign& other : others) verification.checked(other);
+    require_valid_designs(space, verification);
+  } catch (const InputError& error) {
+    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
+                     fmt::format("the finer truth does not suit the design: {}", error.what()));
   }
-  std::vector<std::string> ignored_notes;
-  return trial_of(cheap, "search.precision", ignored_notes, pixels_vary);
 }
 
-}  // namespace
+TriedDesign verified_design(const SensorDesign& design, const std::string& name,
+                            const DesignTrial& verification, Archive& archive, bool quiet) {
+  ProgressLine progress(quiet);
+  progress.show(
+      fmt::format("verification: {} on {} fresh screens", name, verification.screen_count()));
+  const auto start = Clock::now();
+  TriedDesign tried = verification.run(design);
+  const Condition& first = verification.conditions().front();
+  archive.add(
+      {.stage = "verify",
+       .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
+       .cost = mean_and_standard_error(tried.costs).mean,
+       .failure = "",
+       .seconds = seconds_since(start),
+       .performance = to_json(pooled(tried.performances)).dump()});
+  return tried;
+}
 
 DesignSearch::DesignSearch(const Configuration& configuration)
     : telescope(telescope_of(configuration)),
@@ -103,13 +136,7 @@ DesignSearch::DesignSearch(const Configuration& configuration)
       scan_trial_(fresh_trial_of(configuration, "search.precision", space.varies("pupil_pixels"))),
       candidates_(configuration.integer("verify.candidates")) {
   require_valid_designs(space, trial);
-  try {
-    verification.checked(baseline);
-    require_valid_designs(space, verification);
-  } catch (const InputError& error) {
-    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
-                     fmt::format("the finer truth does not suit the design: {}", error.what()));
-  }
+  require_verifiable_designs(configuration, space, verification, {baseline});
   if (!configuration.text("screens.file").empty()) {
     notes.emplace_back("the verification is on simulated screens of the configured seeing");
   }
@@ -153,7 +180,7 @@ DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
   const auto verify = [&](const SensorDesign& candidate, const std::string& name) {
     result.reconstructions +=
         static_cast<long>(verification.conditions().size()) * verification.screen_count();
-    return verified(candidate, name, archive, quiet);
+    return verified_design(candidate, name, verification, archive, quiet);
   };
   const auto& leaders = result.search.best_designs;
   const std::size_t count = std::min(leaders.size(), static_cast<std::size_t>(candidates_));
@@ -202,22 +229,6 @@ SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpa
   result.given_up += log.given_up();
   result.table = log.table();
   return found;
-}
-
-TriedDesign DesignSearch::verified(const SensorDesign& candidate, const std::string& name,
-                                   Archive& archive, bool quiet) const {
-  ProgressLine progress(quiet);
-  progress.show(
-      fmt::format("verification: {} on {} fresh screens", name, verification.screen_count()));
-  const auto start = Clock::now();
-  TriedDesign tried = verification.run(candidate);
-  archive.add({.stage = "verify",
-               .design = to_json(candidate, telescope, seeing.fried_parameter).dump(),
-               .cost = mean_and_standard_error(tried.costs).mean,
-               .failure = "",
-               .seconds = seconds_since(start),
-               .performance = to_json(pooled(tried.performances)).dump()});
-  return tried;
 }
 
 }  // namespace nlcwfs

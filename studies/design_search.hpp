@@ -16,6 +16,25 @@
 
 namespace nlcwfs {
 
+/// @throws InputError where all of some sub-space's design is fixed
+void require_variables(const std::vector<SubSpace>& sub_spaces);
+
+/// Checks each value that a space's discrete variables have, and both ends of the others, one at a
+/// time.
+/// @throws InputError where the trial cannot have such a design
+void require_valid_designs(const DesignSpace& space, const DesignTrial& trial);
+
+/// The same with the trial of the section verify, and for some more designs.
+/// @throws InputError naming verify.truth_factor
+void require_verifiable_designs(const Configuration& configuration, const DesignSpace& space,
+                                const DesignTrial& verification,
+                                const std::vector<SensorDesign>& others = {});
+
+/// A design on fresh screens, archived.
+/// @param name  for the progress line
+TriedDesign verified_design(const SensorDesign& design, const std::string& name,
+                            const DesignTrial& verification, Archive& archive, bool quiet);
+
 /// A design of a search on fresh screens, held against the best one.
 struct RankedDesign {
   SearchPoint point;
@@ -72,8 +91,6 @@ class DesignSearch {
   SearchResult search_stage(const std::string& name, const DesignSpace& stage_space,
                             const DesignTrial& stage_trial, SearchOptions stage_options,
                             Archive& archive, bool quiet, DesignSearchResult& result) const;
-  TriedDesign verified(const SensorDesign& candidate, const std::string& name, Archive& archive,
-                       bool quiet) const;
 
   std::optional<CheapStage> cheap_;
   DesignTrial scan_trial_;  ///< for the ranges: fresh screens, as many as the search's

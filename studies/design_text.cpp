@@ -66,6 +66,20 @@ std::string planes_table(const SensorDesign& design, const Telescope& telescope,
   return table;
 }
 
+std::string choices_text(const DesignSpace& space, const SensorDesign& design) {
+  std::string text;
+  for (const DesignProperty& property : design_properties()) {
+    if (!space.varies(property.name)) continue;
+    const double value = property.get(design);
+    const std::string shown = property.name == "initial_guess"
+                                  ? (value == 0.0 ? "flat" : "centroid")
+                              : property.name == "tolerance" ? format_length(value)
+                                                             : fmt::format("{:.4g}", value);
+    text += fmt::format("{}{} {}", text.empty() ? "  with " : ", ", property.name, shown);
+  }
+  return text.empty() ? text : text + '\n';
+}
+
 std::string performance_table(const std::vector<PerformanceColumn>& columns) {
   struct Row {
     std::string_view metric;

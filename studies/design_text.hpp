@@ -4,6 +4,7 @@
 #include "model/seeing.hpp"
 #include "model/sensor_design.hpp"
 #include "model/telescope.hpp"
+#include "objectives/design_space.hpp"
 
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ std::string telescope_line(const Telescope& telescope, const Seeing& seeing);
 /// on the bench behind a relay, captured light where the performance is known.
 std::string planes_table(const SensorDesign& design, const Telescope& telescope,
                          const Seeing& seeing, const Performance* performance = nullptr);
+
+/// A line with what a space varies of a design other than its planes; empty where that is nothing.
+std::string choices_text(const DesignSpace& space, const SensorDesign& design);
 
 /// A column of a performance table.
 struct PerformanceColumn {

@@ -34,6 +34,7 @@ void run(int argc, const char* const* argv) {
     return;
   }
   scale_default_planes(command_line.configuration);
+  if (command_line.command == "trade") set_trade_defaults(command_line.configuration);
   if (command_line.dump_config) {
     fmt::print("{}", command_line.configuration.dump());
     return;
@@ -48,7 +49,7 @@ void run(int argc, const char* const* argv) {
       {"compare", run_compare}, {"evaluate", run_evaluate},
       {"law", run_law},         {"optimize", run_optimize},
       {"scale", run_scale},     {"screens", run_screens},
-      {"sweep", run_sweep}};
+      {"sweep", run_sweep},     {"trade", run_trade}};
   studies.at(command_line.command)(command_line);
 }
 

@@ -4,6 +4,7 @@
 #include "studies/text.hpp"
 #include "studies/units.hpp"
 
+#include <set>
 #include <string>
 #include <utility>
 
@@ -96,6 +97,18 @@ std::vector<MetricBound> parse_limits(std::string_view key, std::string_view tex
                       limit.side = limit.side == Side::above ? Side::below : Side::above;
                       return limit;
                     });
+}
+
+std::vector<DesignMetric> parse_metrics(std::string_view key, std::string_view text) {
+  std::set<std::string_view> seen;
+  return parse_list(key, text, "METRIC", [&](const Entry& entry) {
+    DesignMetric metric = entry.metric(entry.text);
+    if (!seen.insert(metric.name).second) {
+      throw InputError(key, one_line(text),
+                       fmt::format("each metric once, but {} is twice there", metric.name));
+    }
+    return metric;
+  });
 }
 
 }  // namespace nlcwfs

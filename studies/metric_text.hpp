@@ -21,4 +21,7 @@ std::vector<Penalty> parse_penalties(std::string_view key, std::string_view text
 /// @return the sides on which it does not
 std::vector<MetricBound> parse_limits(std::string_view key, std::string_view text);
 
+/// METRIC: each one once.
+std::vector<DesignMetric> parse_metrics(std::string_view key, std::string_view text);
+
 }  // namespace nlcwfs

@@ -105,21 +105,6 @@ std::string search_text(const DesignSearch& task, const DesignSearchResult& resu
   return text;
 }
 
-/// What of a design the search chose, other than its planes.
-std::string choices_text(const DesignSearch& task, const SensorDesign& design) {
-  std::string text;
-  for (const DesignProperty& property : design_properties()) {
-    if (!task.space.decides(property.name)) continue;
-    const double value = property.get(design);
-    const std::string shown = property.name == "initial_guess"
-                                  ? (value == 0.0 ? "flat" : "centroid")
-                              : property.name == "tolerance" ? format_length(value)
-                                                             : fmt::format("{:.4g}", value);
-    text += fmt::format("{}{} {}", text.empty() ? "  with " : ", ", property.name, shown);
-  }
-  return text.empty() ? text : text + '\n';
-}
-
 /// Whether the best few can be told apart.
 std::string ranking_text(const DesignSearchResult& result) {
   if (result.ranking.size() < 2) return {};
@@ -206,7 +191,7 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
              search_text(task, result, precision));
   fmt::print("Best design, planes in visiting order:\n{}{}\n",
              planes_table(best.design, task.telescope, task.seeing, &best_performance),
-             choices_text(task, best.design));
+             choices_text(task.space, best.design));
   fmt::print("Baseline:\n{}\n", planes_table(result.baseline.design, task.telescope, task.seeing,
                                              &baseline_performance));
   fmt::print("Both on the same {} fresh screens, true field {} samples across the pupil:\n{}",

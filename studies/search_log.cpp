@@ -13,12 +13,15 @@ namespace nlcwfs {
 namespace {
 
 /// Of every search, whatever it varies: what differs from the configuration is easily seen.
-std::vector<std::string> columns() {
+std::vector<std::string> columns(const std::vector<DesignMetric>& objectives) {
   std::vector<std::string> names{"evaluation", "planes_m"};
   for (const DesignProperty& property : design_properties()) names.emplace_back(property.name);
   for (const char* name : {"cost", "violation", "screens", "given_up", "residual_wfe_nm",
                            "total_wfe_nm", "fractional_loops", "failure"}) {
     names.emplace_back(name);
+  }
+  for (const DesignMetric& objective : objectives) {
+    names.push_back(fmt::format("objective_{}", objective.name));
   }
   return names;
 }
@@ -27,15 +30,16 @@ std::vector<std::string> columns() {
 
 SearchLog::SearchLog(std::string stage, const DesignSpace& space, const Telescope& telescope,
                      double fried_parameter, const EvaluatorOptions& limits, Archive& archive,
-                     bool quiet)
+                     bool quiet, std::vector<DesignMetric> objectives)
     : stage_(std::move(stage)),
       space_(space),
       telescope_(telescope),
       fried_parameter_(fried_parameter),
       limits_(limits),
+      objectives_(std::move(objectives)),
       archive_(archive),
       progress_(quiet),
-      table_(columns()) {}
+      table_(columns(objectives_)) {}
 
 void SearchLog::add(const EvaluationRecord& evaluation) {
   const SensorDesign design = space_.design(evaluation.point);
@@ -62,6 +66,13 @@ void SearchLog::add(const EvaluationRecord& evaluation) {
     }
   }
   table_.add(evaluation.failure);
+  for (std::size_t i = 0; i < objectives_.size(); ++i) {
+    if (failed) {
+      table_.add("");
+    } else {
+      table_.add(objectives_[i].minimised(evaluation.objectives[i]));
+    }
+  }
   if (!failed) {
     for (const Performance& performance : tried->performances) {
       reconstructions_ += static_cast<long>(performance.screens.size());
@@ -76,9 +87,10 @@ void SearchLog::show_progress(const EvaluationRecord& evaluation) {
   const double elapsed = since_start.count();
   double left = elapsed / evaluation.index * (limits_.budget - evaluation.index);
   if (limits_.time_limit) left = std::min(left, std::max(0.0, *limits_.time_limit - elapsed));
-  progress_.show(
-      fmt::format("{}: design {} of {}, lowest cost {:.4g}, {} left, then the verification", stage_,
-                  evaluation.index, limits_.budget, evaluation.best_cost, duration_text(left)));
+  const std::string lowest =
+      objectives_.empty() ? fmt::format(", lowest cost {:.4g}", evaluation.best_cost) : "";
+  progress_.show(fmt::format("{}: design {} of {}{}, {} left, then the verification", stage_,
+                             evaluation.index, limits_.budget, lowest, duration_text(left)));
 }
 
 }  // namespace nlcwfs

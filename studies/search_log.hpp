@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/telescope.hpp"
+#include "objectives/design_metric.hpp"
 #include "objectives/design_space.hpp"
 #include "objectives/design_trial.hpp"
 #include "optimizer/evaluator.hpp"
@@ -10,6 +11,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 namespace nlcwfs {
 
@@ -17,8 +19,10 @@ namespace nlcwfs {
 class SearchLog {
  public:
   /// @param stage  for the archive and the progress line: "search"
+  /// @param objectives  of a search with several, for the table
   SearchLog(std::string stage, const DesignSpace& space, const Telescope& telescope,
-            double fried_parameter, const EvaluatorOptions& limits, Archive& archive, bool quiet);
+            double fried_parameter, const EvaluatorOptions& limits, Archive& archive, bool quiet,
+            std::vector<DesignMetric> objectives = {});
 
   void add(const EvaluationRecord& evaluation);
 
@@ -37,6 +41,7 @@ class SearchLog {
   const Telescope& telescope_;
   double fried_parameter_;
   const EvaluatorOptions& limits_;
+  std::vector<DesignMetric> objectives_;
   Archive& archive_;
   ProgressLine progress_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -216,6 +216,62 @@ void scale_default_planes(Configuration& configuration) {
   }
 }
 
+void set_trade_defaults(Configuration& configuration) {
+  const auto set = [&](std::string_view key, const std::string& value) {
+    if (configuration.source(key) == Configuration().source(key)) {
+      configuration.set(key, value, "by the command trade");
+    }
+  };
+  const auto is_any_set = [&](std::initializer_list<const char*> keys) {
+    return std::ranges::any_of(keys, [&](const char* key) { return configuration.is_set(key); });
+  };
+  set("search.plane_count", "2:5");
+  if (is_any_set({"search.z1", "search.z2", "search.z3", "search.z4", "search.z5", "search.z6"})) {
+    set("search.layout", "free");
+  }
+  set("search.initial_guess", "flat,centroid");
+  if (!is_any_set({"search.relaxation_start", "search.relaxation_end"})) {
+    set("search.relaxation", "-0.3:0.7");
+  }
+  // A matched truth shares one grid with detector and reconstruction.
+  if (is_matched(configuration)) return;
+  set("search.reconstruction_oversampling", "1,2");
+  const Telescope telescope = telescope_of(configuration);
+  const SensorDesign configured = design_of(configuration);
+  std::vector<int> suitable;
+  for (const int divisor : {4, 2, 1}) {
+    SensorDesign design = configured;
+    design.detector.pupil_pixels /= divisor;
+    if (design.detector.pupil_pixels * divisor != configured.detector.pupil_pixels) continue;
+    try {
+      simulated_design(design, telescope, TruthModel::extended, truth_samples(configuration));
+      suitable.push_back(design.detector.pupil_pixels);
+    } catch (const InputError&) {
+      // Its windows are no whole numbers of these pixels. Where the configured design itself does
+      // not suit, that is said when it is simulated.
+      continue;
+    }
+  }
+  if (suitable.size() > 1) set("search.pupil_pixels", fmt::format("{}", fmt::join(suitable, ",")));
+}
+
+std::vector<DesignMetric> trade_objectives_of(const Configuration& configuration) {
+  const std::string key = "trade.objectives";
+  const std::string& text = configuration.text(key);
+  std::vector<DesignMetric> objectives = parse_metrics(key, text);
+  if (objectives.size() < 2) {
+    throw InputError(key, text, "at least two metrics; for one there is the command optimize");
+  }
+  for (const DesignMetric& objective : objectives) {
+    if (objective.name == "seconds") {
+      throw InputError(key, text,
+                       "seconds are measured, so the search could not be repeated; take "
+                       "model_seconds");
+    }
+  }
+  return objectives;
+}
+
 void require_one_condition(const Configuration& configuration) {
   for (const char* key : {"seeing.d_over_r0", "seeing.fried_parameter", "seeing.fwhm",
                           "detector.photons", "detector.photon_rate"}) {

@@ -5,6 +5,7 @@
 #include "model/simulation.hpp"
 #include "model/telescope.hpp"
 #include "objectives/design_cost.hpp"
+#include "objectives/design_metric.hpp"
 #include "objectives/design_space.hpp"
 #include "objectives/design_trial.hpp"
 #include "studies/configuration.hpp"
@@ -23,6 +24,12 @@ Telescope telescope_of(const Configuration& configuration);
 /// The planes that stand by default or by the paper's preset, which are those of the paper's
 /// telescope, moved to the configured telescope at constant Fresnel numbers.
 void scale_default_planes(Configuration& configuration);
+
+/// The command trade's own defaults of the section search, for the keys that the user did not set.
+void set_trade_defaults(Configuration& configuration);
+
+/// trade.objectives.
+std::vector<DesignMetric> trade_objectives_of(const Configuration& configuration);
 
 /// Refuses several seeings or lights, for commands that simulate one condition.
 void require_one_condition(const Configuration& configuration);

@@ -14,6 +14,10 @@ void run_evaluate(const CommandLine& command_line);
 /// The best design of the configured search, verified on fresh screens beside the baseline.
 void run_optimize(const CommandLine& command_line);
 
+/// The designs that no other betters in all of the configured objectives, verified on fresh
+/// screens.
+void run_trade(const CommandLine& command_line);
+
 /// Every design of the configured grid, the best of them verified on fresh screens. A run that was
 /// interrupted goes on with --resume.
 void run_sweep(const CommandLine& command_line);

@@ -1,0 +1,255 @@
+#include "studies/trade_search.hpp"
+
+#include "model/input_error.hpp"
+#include "objectives/design_problem.hpp"
+#include "studies/design_search.hpp"
+#include "studies/interrupt.hpp"
+#include "studies/search_log.hpp"
+#include "studies/settings.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stop_token>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double nm = 1e-9;
+
+ParetoOptions pareto_options_of(const Configuration& configuration) {
+  ParetoOptions options;
+  options.algorithm = configuration.choice("trade.algorithm");
+  options.population = configuration.integer("trade.population");
+  options.seed = configuration.seed("search.seed");
+  options.evaluation.budget = configuration.integer("trade.budget");
+  options.evaluation.time_limit = configuration.optional_time("search.time_limit");
+  if (options.population % 4 != 0) {
+    throw InputError("trade.population", options.population, "a multiple of 4, such as 8");
+  }
+  return options;
+}
+
+/// What a metric may be before a design is worthless, whatever a search finds: the same for every
+/// run of a configuration, so that hypervolumes can be compared. Nothing for a metric without such
+/// a value.
+std::optional<double> worthless_value(const DesignMetric& metric, const SensorDesign& configured,
+                                      const Operation& operation) {
+  // One more than a sensor may have.
+  constexpr double planes = 7.0;
+  if (metric.name == "total_wfe_nm" || metric.name == "residual_wfe_nm" ||
+      metric.name == "wrapped_wfe_nm") {
+    // A Strehl ratio below 0.1.
+    return 0.25 * operation.wavelength / nm;
+  }
+  if (metric.name == "model_seconds") {
+    // Two transforms between planes, and from and to the pupil.
+    const double transforms = 2.0 * (planes + 1.0) * configured.reconstruction.max_loops;
+    return transforms * operation.transform_seconds(configured);
+  }
+  if (metric.name == "detector_pixels") {
+    return planes * configured.detector.width() * configured.detector.width();
+  }
+  if (metric.name == "plane_count") return planes;
+  return std::nullopt;
+}
+
+std::vector<std::optional<double>> reference_of(const Configuration& configuration,
+                                                const std::vector<DesignMetric>& objectives,
+                                                const SensorDesign& configured,
+                                                const Operation& operation) {
+  std::vector<std::optional<double>> reference;
+  if (!configuration.is_set("trade.reference")) {
+    for (const DesignMetric& objective : objectives) {
+      auto value = worthless_value(objective, configured, operation);
+      if (value) value = objective.minimised(*value);
+      reference.push_back(value);
+    }
+    return reference;
+  }
+  const std::vector<double> given = configuration.numbers("trade.reference");
+  if (given.size() != objectives.size()) {
+    throw InputError("trade.reference", configuration.value_text("trade.reference"),
+                     fmt::format("{} numbers, one for each of trade.objectives, {}",
+                                 objectives.size(), configuration.text("trade.objectives")));
+  }
+  for (std::size_t i = 0; i < objectives.size(); ++i) {
+    reference.emplace_back(objectives[i].minimised(given[i]));
+  }
+  return reference;
+}
+
+/// The order in which people read a front.
+bool stands_before(const TradedDesign& a, const TradedDesign& b) {
+  const auto rank = [](const TradedDesign& traded) {
+    const SensorDesign& design = traded.verified.design;
+    return std::tuple(design.planes.size(), design.detector.pupil_pixels,
+                      traded.evaluated.objectives);
+  };
+  return rank(a) < rank(b);
+}
+
+}  // namespace
+
+std::size_t TradeResult::standing_count() const {
+  return static_cast<std::size_t>(std::ranges::count_if(front, &TradedDesign::stands));
+}
+
+TradeSearch::TradeSearch(const Configuration& configuration)
+    : telescope(telescope_of(configuration)),
+      seeing(seeing_of(configuration, telescope)),
+      space(search_space_of(
+          configuration, telescope,
+          simulated_design(design_of(configuration), telescope,
+                           simulation_options_of(configuration, "search.precision").truth,
+                           truth_samples(configuration)))),
+      objectives(trade_objectives_of(configuration)),
+      options(pareto_options_of(configuration)),
+      trial(trial_of(configuration, "search.precision", notes, space.varies("pupil_pixels"))),
+      verification(verification_trial_of(configuration, space.varies("pupil_pixels"))),
+      most_verified_(static_cast<std::size_t>(configuration.integer("trade.verified"))) {
+  require_variables(space.sub_spaces());
+  require_valid_designs(space, trial);
+  require_verifiable_designs(configuration, space, verification);
+  const Operation& operation = trial.cost().operation;
+  for (const DesignMetric& objective : objectives) objective.validate(operation);
+  const SensorDesign configured = design_of(configuration);
+  reference_ = reference_of(configuration, objectives, configured, operation);
+  if (!configuration.text("screens.file").empty()) {
+    notes.emplace_back("the verification is on simulated screens of the configured seeing");
+  }
+  if (configuration.choice("simulation.truth") == "matched") {
+    notes.emplace_back(
+        "with simulation.truth = matched all designs share one grid: pupil_pixels and "
+        "reconstruction_oversampling do not vary");
+  }
+  if (const auto point = space.point_of(configured)) options.starts.push_back(*point);
+}
+
+TradeResult TradeSearch::run(Archive& archive, bool quiet) const {
+  TradeResult result;
+  const InterruptWatch watch;
+  const auto start = Clock::now();
+  ParetoOptions watched = options;
+  SearchLog log("search", space, telescope, seeing.fried_parameter, watched.evaluation, archive,
+                quiet, objectives);
+  std::stop_source stop;
+  watched.evaluation.stop = stop.get_token();
+
+  const auto first_designs = options.population * static_cast<int>(space.sub_spaces().size());
+  std::vector<double> worst(objectives.size(), -std::numeric_limits<double>::infinity());
+  watched.evaluation.observer = [&](const EvaluationRecord& evaluation) {
+    log.add(evaluation);
+    if (evaluation.index <= first_designs && evaluation.failure.empty()) {
+      for (std::size_t i = 0; i < worst.size(); ++i) {
+        worst[i] = std::max(worst[i], evaluation.objectives[i]);
+      }
+    }
+    if (InterruptWatch::interrupted()) stop.request_stop();
+  };
+  DesignProblem problem(space, trial, objectives);
+  result.search = pareto_search(problem, watched);
+  result.search_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  result.reconstructions = log.reconstructions();
+  result.table = log.table();
+
+  for (std::size_t i = 0; i < objectives.size(); ++i) {
+    result.reference_is_of_the_run = result.reference_is_of_the_run || !reference_[i];
+    result.reference_point.push_back(objectives[i].minimised(reference_[i].value_or(worst[i])));
+  }
+  verify_front(result, archive, quiet);
+  judge_front(result);
+  return result;
+}
+
+void TradeSearch::verify_front(TradeResult& result, Archive& archive, bool quiet) const {
+  const std::vector<EvaluatedDesign>& front = result.search.front;
+  std::vector<std::string> groups;
+  for (const EvaluatedDesign& found : front) {
+    const SensorDesign design = space.design(found.point);
+    groups.push_back(
+        fmt::format("{} planes {} pixels", design.planes.size(), design.detector.pupil_pixels));
+  }
+  const std::vector<std::size_t> chosen = evenly_chosen(groups, most_verified_);
+  // One that ended the search does not end this too.
+  const bool was_interrupted = InterruptWatch::interrupted();
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (!was_interrupted && i > 0 && InterruptWatch::interrupted()) {
+      result.verification_interrupted = true;
+      return;
+    }
+    const EvaluatedDesign& found = front[chosen[i]];
+    TradedDesign traded;
+    traded.verified = verified_design(space.design(found.point),
+                                      fmt::format("design {} of {}", i + 1, chosen.size()),
+                                      verification, archive, quiet);
+    traded.evaluated = {.point = found.point,
+                        .key = found.key,
+                        .cost = mean_and_standard_error(traded.verified.costs).mean,
+                        .violation = traded.verified.violation};
+    for (const DesignMetric& objective : objectives) {
+      traded.objectives.push_back(verification.mean_of(traded.verified, objective));
+      traded.evaluated.objectives.push_back(objective.minimised(traded.objectives.back().mean));
+    }
+    result.front.push_back(std::move(traded));
+    result.reconstructions +=
+        static_cast<long>(verification.conditions().size()) * verification.screen_count();
+  }
+}
+
+void TradeSearch::judge_front(TradeResult& result) const {
+  std::ranges::stable_sort(result.front, stands_before);
+  std::vector<std::vector<double>> figures;
+  std::vector<std::size_t> within_limits;
+  for (std::size_t i = 0; i < result.front.size(); ++i) {
+    if (result.front[i].evaluated.violation > 0.0) continue;
+    within_limits.push_back(i);
+    figures.push_back(result.front[i].evaluated.objectives);
+  }
+  const std::vector<bool> is_dominated = dominated(figures);
+  std::vector<std::size_t> standing;
+  std::vector<EvaluatedDesign> designs;
+  for (std::size_t i = 0; i < within_limits.size(); ++i) {
+    TradedDesign& traded = result.front[within_limits[i]];
+    traded.dominated = is_dominated[i];
+    if (traded.dominated) continue;
+    standing.push_back(within_limits[i]);
+    designs.push_back(traded.evaluated);
+  }
+  result.bests.resize(objectives.size() - 1);
+  if (standing.empty()) return;
+  result.knee = standing[knee(designs)];
+
+  std::vector<double> reference;
+  double box = 1.0;
+  for (std::size_t i = 0; i < objectives.size(); ++i) {
+    reference.push_back(objectives[i].minimised(result.reference_point[i]));
+    box *= reference.back() - (objectives[i].higher_is_better ? -1.0 : 0.0);
+  }
+  result.hypervolume = hypervolume(designs, reference);
+  result.hypervolume_fraction = box > 0.0 ? result.hypervolume / box : 0.0;
+
+  for (std::size_t i = 1; i < objectives.size(); ++i) {
+    std::vector<std::size_t> by_bound = standing;
+    std::ranges::stable_sort(by_bound, {}, [&](std::size_t design) {
+      const std::vector<double>& figure = result.front[design].evaluated.objectives;
+      return std::pair(figure[i], figure[0]);
+    });
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t design : by_bound) {
+      const std::vector<double>& figure = result.front[design].evaluated.objectives;
+      if (figure[0] >= least) continue;
+      least = figure[0];
+      result.bests[i - 1].push_back({result.front[design].objectives[i].mean, design});
+    }
+  }
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "model/seeing.hpp"
+#include "model/statistics.hpp"
+#include "model/telescope.hpp"
+#include "objectives/design_metric.hpp"
+#include "objectives/design_space.hpp"
+#include "objectives/design_trial.hpp"
+#include "optimizer/pareto_search.hpp"
+#include "results/archive.hpp"
+#include "studies/configuration.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nlcwfs {
+
+/// A design of a trade's front on fresh screens.
+struct TradedDesign {
+  TriedDesign verified;
+  std::vector<MeanAndError> objectives;  ///< there, in the metrics' own units and signs
+  bool dominated = false;                ///< there, by another of the front
+  /// The same, as figures to be minimised.
+  EvaluatedDesign evaluated;
+
+  /// Whether it is one of the best compromises: not dominated, and within the limits.
+  bool stands() const { return !dominated && evaluated.violation == 0.0; }
+};
+
+/// A bound on one objective, and the least of the first objective that is possible within it.
+struct BoundedBest {
+  double bound;
+  std::size_t design;  ///< index in the front
+};
+
+/// What a trade found, and what it took.
+struct TradeResult {
+  ParetoResult search;
+  /// The verified designs, ordered by planes, pixels and the first objective.
+  std::vector<TradedDesign> front;
+  std::optional<std::size_t> knee;       ///< of those that stand; nothing where none does
+  std::vector<double> reference_point;   ///< in the metrics' own units and signs
+  bool reference_is_of_the_run = false;  ///< some of it is from the first populations
+  double hypervolume = 0.0;              ///< of the front, in the product of the units
+  /// Of the box between the reference point and the best values that the metrics can have.
+  double hypervolume_fraction = 0.0;
+  /// For each objective but the first: the first objective's best under ever wider bounds on it.
+  std::vector<std::vector<BoundedBest>> bests;
+  bool verification_interrupted = false;
+  long reconstructions = 0;  ///< the verification included
+  double search_seconds = 0.0;
+  std::string table;  ///< CSV of the designs of the search
+
+  std::size_t standing_count() const;
+};
+
+/// A search of the sections trade, search and verify, checked as a whole when it is made.
+class TradeSearch {
+ public:
+  /// @param configuration  with set_trade_defaults
+  /// @throws InputError where values do not go together
+  explicit TradeSearch(const Configuration& configuration);
+
+  /// The search, and the verification of its front on fresh screens. Ctrl-C ends the search with
+  /// the front so far, and the verification with the designs so far.
+  TradeResult run(Archive& archive, bool quiet) const;
+
+  const Telescope telescope;
+  const Seeing seeing;  ///< the first, where there are several
+  const DesignSpace space;
+  const std::vector<DesignMetric> objectives;
+  ParetoOptions options;
+  std::vector<std::string> notes;  ///< for the user
+  const DesignTrial trial;         ///< of the search
+  const DesignTrial verification;
+
+ private:
+  void verify_front(TradeResult& result, Archive& archive, bool quiet) const;
+  void judge_front(TradeResult& result) const;
+
+  /// As figures to be minimised; nothing for what the first populations say.
+  std::vector<std::optional<double>> reference_;
+  std::size_t most_verified_;
+};
+
+}  // namespace nlcwfs
