@@ -122,5 +122,28 @@ TEST_F(DesignMetricTest, ServoLagNeedsToKnowTheTurbulencesSpeed) {
   EXPECT_THROW(value("error_budget_nm"), InputError);
 }
 
+TEST_F(DesignMetricTest, IsMinimisedUnlessHigherIsBetter) {
+  std::set<std::string> higher;
+  for (const DesignMetric& metric : design_metrics()) {
+    EXPECT_EQ(metric.minimised(0.5), metric.higher_is_better ? -0.5 : 0.5) << metric.name;
+    EXPECT_EQ(metric.minimised(metric.minimised(0.5)), 0.5) << metric.name;
+    if (metric.higher_is_better) higher.emplace(metric.name);
+  }
+  EXPECT_THAT(higher, testing::ElementsAre("captured_energy", "field_strehl"));
+}
+
+TEST_F(DesignMetricTest, SaysWhatIsNotSetBeforeAnyScreen) {
+  for (const DesignMetric& metric : design_metrics()) {
+    const bool needs_speed = metric.name == "servo_wfe_nm" || metric.name == "error_budget_nm";
+    if (needs_speed) {
+      EXPECT_THROW(metric.validate(operation_), InputError) << metric.name;
+    } else {
+      EXPECT_NO_THROW(metric.validate(operation_)) << metric.name;
+    }
+  }
+  operation_.wind_speed = 8.0;
+  EXPECT_NO_THROW(find_design_metric("error_budget_nm")->validate(operation_));
+}
+
 }  // namespace
 }  // namespace nlcwfs

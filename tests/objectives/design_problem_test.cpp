@@ -33,6 +33,26 @@ TEST(DesignProblem, CostsAreThoseOfTheTrial) {
   EXPECT_EQ(problem.key(space.point_of(design).value()), design_key(design));
 }
 
+TEST(DesignProblem, ObjectivesAreMeansToBeMinimised) {
+  const Telescope telescope;
+  const DesignTrial trial({tiny_condition(telescope, 4.0, 3), tiny_condition(telescope, 8.0, 3)},
+                          {});
+  const SensorDesign design = tiny_design(telescope);
+  const DesignSpace space(telescope, {.base = design});
+  const std::vector<DesignMetric> objectives{
+      *find_design_metric("total_wfe_nm"), *find_design_metric("field_strehl"),
+      *find_design_metric("detector_pixels"), *find_design_metric("captured_energy")};
+  DesignProblem problem(space, trial, objectives);
+  const Assessment found = problem.assess(space.point_of(design).value(), {});
+  const auto& tried = std::any_cast<const TriedDesign&>(found.detail);
+  ASSERT_EQ(found.objectives.size(), 4u);
+  EXPECT_EQ(found.objectives[0], trial.mean_of(tried, objectives[0]).mean);
+  EXPECT_EQ(found.objectives[1], -trial.mean_of(tried, objectives[1]).mean);
+  EXPECT_LT(found.objectives[1], 0.0);
+  EXPECT_EQ(found.objectives[2], 4.0 * 32 * 32);
+  EXPECT_EQ(found.objectives[3], -trial.mean_of(tried, objectives[3]).mean);
+}
+
 TEST(DesignProblem, AsksWhetherToGoOnAfterTheFirstScreens) {
   const Telescope telescope;
   const DesignTrial trial({tiny_condition(telescope, 4.0, 9)}, {});

@@ -174,5 +174,27 @@ TEST_F(DesignTrialTest, ChecksADesignUnderEveryCondition) {
   EXPECT_THROW((void)two.run(design_), InputError);
 }
 
+TEST_F(DesignTrialTest, AMetricsMeanIsOverScreensAndConditionsItsErrorOverScreens) {
+  const DesignTrial both({tiny_condition(telescope_, 4.0, 3), tiny_condition(telescope_, 8.0, 3)},
+                         {});
+  const TriedDesign tried = both.run(design_);
+  const MeanAndError found = both.mean_of(tried, *find_design_metric("total_wfe_nm"));
+  const MeanAndError expected =
+      pooled(tried.performances).mean_of(performance_metric("total_wfe_nm"));
+  EXPECT_DOUBLE_EQ(found.mean, expected.mean);
+  EXPECT_DOUBLE_EQ(found.standard_error, expected.standard_error);
+  EXPECT_GT(found.standard_error, 0.0);
+}
+
+TEST_F(DesignTrialTest, AMetricIsOfTheDesignInTheConditionsLight) {
+  Condition bright = tiny_condition(telescope_);
+  bright.light = 1e6;
+  const DesignMetric photons{"photons", "", [](const ScreenPerformance&, const MetricContext& c) {
+                               return c.design.detector.photons;
+                             }};
+  const DesignTrial lit({bright}, {});
+  EXPECT_EQ(lit.mean_of(lit.run(design_), photons).mean, 1e6);
+}
+
 }  // namespace
 }  // namespace nlcwfs

@@ -271,5 +271,35 @@ TEST(Knee, OfDegenerateFronts) {
   EXPECT_EQ(knee({design({0.0, 1.0}), design({0.8, 0.8}), design({1.0, 0.0})}), 0u);
 }
 
+TEST(Dominated, IsWhatAnotherBettersInOneObjectiveAndEqualsInTheOthers) {
+  EXPECT_THAT(dominated({{1.0, 2.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 3.0}, {0.5, 9.0}}),
+              ElementsAre(false, false, true, true, false));
+  EXPECT_TRUE(dominated({}).empty());
+}
+
+TEST(Dominated, AreAllButTheFirstOfEqualDesigns) {
+  EXPECT_THAT(dominated({{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}), ElementsAre(false, true, true));
+  EXPECT_THAT(dominated({{1.0, 1.0}, {0.5, 1.0}, {0.5, 1.0}}), ElementsAre(true, false, true));
+}
+
+TEST(EvenlyChosen, TakesAllWhereAllFit) {
+  EXPECT_THAT(evenly_chosen({"a", "b", "a"}, 3), ElementsAre(0, 1, 2));
+  EXPECT_THAT(evenly_chosen({"a", "b", "a"}, 99), ElementsAre(0, 1, 2));
+  EXPECT_TRUE(evenly_chosen({}, 5).empty());
+}
+
+TEST(EvenlyChosen, SharesAmongGroupsAndSpreadsOverEach) {
+  // 10 of a, 2 of b, 1 of c.
+  std::vector<std::string> groups(10, "a");
+  groups.insert(groups.end(), {"b", "b", "c"});
+  EXPECT_THAT(evenly_chosen(groups, 7), ElementsAre(0, 3, 6, 9, 10, 11, 12));
+  EXPECT_THAT(evenly_chosen(groups, 3), ElementsAre(0, 10, 12));
+  EXPECT_THAT(evenly_chosen(groups, 2), ElementsAre(0, 10));
+  for (std::size_t most = 0; most <= groups.size(); ++most) {
+    const std::vector<std::size_t> chosen = evenly_chosen(groups, most);
+    EXPECT_EQ(std::set<std::size_t>(chosen.begin(), chosen.end()).size(), most);
+  }
+}
+
 }  // namespace
 }  // namespace nlcwfs

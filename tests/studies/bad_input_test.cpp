@@ -40,8 +40,8 @@ TEST_F(BadInput, OfTheCommandLine) {
                  "command line = --detector.pupil_pixel", "did you mean --detector.pupil_pixels?");
   expect_refused(
       "optimise", {}, "command = optimise",
-      "one of evaluate, screens, scale, sweep, optimize, compare, law, advise, benchmark; did you "
-      "mean optimize?");
+      "one of evaluate, screens, scale, sweep, optimize, compare, trade, law, advise, benchmark; "
+      "did you mean optimize?");
   expect_refused("evaluate", {"optimize"}, "command line = optimize", "nothing may follow");
   expect_refused("evaluate", {"--screens.count"}, "screens.count = (nothing)", "a whole number");
   expect_refused("evaluate", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");
@@ -174,6 +174,35 @@ TEST_F(BadInput, OfASearch) {
                  "verify.truth_factor = 2", "the finer truth does not suit the design");
   expect_refused("optimize", {"--search.budget", "0"}, "search.budget = 0", "from 1");
   expect_refused("optimize", {"--verify.screens", "1"}, "verify.screens = 1", "from 2");
+}
+
+TEST_F(BadInput, OfATrade) {
+  expect_refused("trade", {"--trade.objectives", "total_wfe_nm"}, "trade.objectives = total_wfe_nm",
+                 "at least two metrics");
+  expect_refused("trade", {"--trade.objectives", "total_wfe_nm,model_second"},
+                 "trade.objectives = model_second", "did you mean model_seconds? There are ");
+  expect_refused("trade", {"--trade.objectives", "loops,loops"}, "trade.objectives = loops,loops",
+                 "loops is twice");
+  expect_refused("trade", {"--trade.objectives", "total_wfe_nm,seconds"},
+                 "trade.objectives = total_wfe_nm,seconds", "take model_seconds");
+  expect_refused("trade", {"--trade.objectives", "error_budget_nm,plane_count"},
+                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+  expect_refused("trade", {"--trade.reference", "100,0.5"}, "trade.reference = 100,0.5",
+                 "4 numbers, one for each of trade.objectives, total_wfe_nm,model_seconds");
+  expect_refused("trade", {"--trade.algorithm", "nsga"}, "trade.algorithm = nsga",
+                 "one of nsga2, nspso");
+  expect_refused("trade", {"--trade.population", "10"}, "trade.population = 10", "a multiple of 4");
+  expect_refused("trade", {"--trade.population", "4"}, "trade.population = 4", "from 8");
+  expect_refused("trade", {"--trade.budget", "0"}, "trade.budget = 0", "from 1");
+  expect_refused("trade", {"--search.plane_count", "7"}, "search.plane_count = 7", "from 2 to 6");
+  expect_refused("trade", {"--search.pupil_pixels", "12,16"}, "simulation.pupil_samples = 32",
+                 "a multiple of detector.pupil_pixels, which is 12");
+  expect_refused("trade", {"--simulation.truth", "matched", "--search.pupil_pixels", "8,16"},
+                 "simulation.pupil_samples = 16", "a matched truth has the detector's 8 samples");
+  expect_refused("trade", {"--detector.pupil_pixels", "15"}, "detector.pupil_pixels = 15",
+                 "an even number");
+  expect_refused("trade", {"--verify.seed", "1"}, "verify.seed = 1", "another seed");
+  expect_refused("trade", {"--resume", "anywhere"}, "--resume = anywhere", "");
 }
 
 TEST_F(BadInput, OfTheObjective) {

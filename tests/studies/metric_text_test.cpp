@@ -80,5 +80,17 @@ TEST(MetricText, WhatIsNoEntryIsRefusedWithItsForm) {
   }
 }
 
+TEST(MetricText, ReadsMetricsEachOnce) {
+  const auto metrics = parse_metrics("key", " loops,plane_count ");
+  ASSERT_EQ(metrics.size(), 2u);
+  EXPECT_EQ(metrics[0].name, "loops");
+  EXPECT_EQ(metrics[1].name, "plane_count");
+  EXPECT_THAT(message_of([] { (void)parse_metrics("key", "loops,plane_count,loops"); }),
+              AllOf(StartsWith("key = loops,plane_count,loops: "), HasSubstr("loops is twice")));
+  EXPECT_THAT(message_of([] { (void)parse_metrics("key", "loops,plane"); }),
+              HasSubstr("did you mean plane_count?"));
+  EXPECT_THAT(message_of([] { (void)parse_metrics("key", "loops,"); }), StartsWith("key = "));
+}
+
 }  // namespace
 }  // namespace nlcwfs

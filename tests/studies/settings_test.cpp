@@ -300,5 +300,57 @@ TEST(Settings, TheVerificationsTruthIsFinerAndNoLongerMatched) {
   EXPECT_EQ(verification.checked(design).detector.window, design.detector.window);
 }
 
+Configuration with_trade_defaults(
+    std::initializer_list<std::pair<const char*, const char*>> values) {
+  Configuration configuration = with(values);
+  set_trade_defaults(configuration);
+  return configuration;
+}
+
+std::vector<double> pixels_traded(
+    std::initializer_list<std::pair<const char*, const char*>> values) {
+  const auto domain = with_trade_defaults(values).domain("search.pupil_pixels");
+  return domain ? std::get<std::vector<double>>(*domain) : std::vector<double>();
+}
+
+TEST(Settings, ATradeVariesPlanesPixelsAndReconstruction) {
+  const Configuration configuration = with_trade_defaults({});
+  EXPECT_EQ(configuration.value_text("search.plane_count"), "2:5");
+  EXPECT_EQ(configuration.value_text("search.layout"), "symmetric");
+  EXPECT_EQ(configuration.value_text("search.relaxation"), "-0.3:0.7");
+  EXPECT_EQ(configuration.value_text("search.initial_guess"), "flat,centroid");
+  EXPECT_EQ(configuration.value_text("search.reconstruction_oversampling"), "1,2");
+  EXPECT_EQ(configuration.value_text("search.pupil_pixels"), "16,32,64");
+  Configuration again = configuration;
+  set_trade_defaults(again);
+  EXPECT_EQ(again, configuration);
+}
+
+TEST(Settings, ATradesPixelsSuitTheWindowsAndTheTruth) {
+  EXPECT_THAT(pixels_traded({{"detector.pupil_pixels", "128"}}), ElementsAre(32, 64, 128));
+  EXPECT_THAT(pixels_traded({{"detector.pupil_pixels", "8"}}), ElementsAre(4, 8));
+  EXPECT_THAT(pixels_traded({{"detector.pupil_pixels", "32"}, {"detector.window", "1.0625"}}),
+              testing::IsEmpty());
+  EXPECT_THAT(pixels_traded({{"simulation.truth", "matched"}}), testing::IsEmpty());
+  EXPECT_FALSE(with_trade_defaults({{"simulation.truth", "matched"}})
+                   .is_set("search.reconstruction_oversampling"));
+}
+
+TEST(Settings, ATradeLeavesWhatTheUserSet) {
+  const Configuration configuration =
+      with_trade_defaults({{"search.plane_count", "4"},
+                           {"search.pupil_pixels", "32"},
+                           {"search.initial_guess", "flat"},
+                           {"search.relaxation_start", "0:0.8"},
+                           {"search.reconstruction_oversampling", "1"}});
+  EXPECT_EQ(configuration.value_text("search.plane_count"), "4")
+      << "though it is the default of optimize";
+  EXPECT_EQ(configuration.value_text("search.pupil_pixels"), "32");
+  EXPECT_EQ(configuration.value_text("search.initial_guess"), "flat");
+  EXPECT_FALSE(configuration.is_set("search.relaxation"));
+  EXPECT_EQ(configuration.value_text("search.reconstruction_oversampling"), "1");
+  EXPECT_EQ(with_trade_defaults({{"search.z2", "5km:50km"}}).choice("search.layout"), "free");
+}
+
 }  // namespace
 }  // namespace nlcwfs
