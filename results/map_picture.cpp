@@ -1,19 +1,14 @@
 #include "results/map_picture.hpp"
 
+#include "results/gnuplot.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstring>
-#include <fcntl.h>
-#include <fstream>
 #include <limits>
 #include <numeric>
-#include <spawn.h>
 #include <string_view>
-#include <sys/wait.h>
-#include <system_error>
-#include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,16 +39,6 @@ struct Range {
   }
   bool is_empty() const { return least > greatest; }
 };
-
-/// A text that gnuplot takes as it stands.
-std::string gnuplot_text(std::string_view text) {
-  std::string quoted = "'";
-  for (const char character : text) {
-    if (character == '\'') quoted += '\'';
-    quoted += character;
-  }
-  return quoted + "'";
-}
 
 /// Round numbers of a range, about `count`: multiples of 1, 2 or 5 times a power of ten, or those
 /// numbers themselves on a logarithmic scale.
@@ -160,16 +145,6 @@ std::string DrawnAxis::script(std::string_view name) const {
                               fmt::join(tics, ", "));
 }
 
-/// Data of a name, a line for each row.
-std::string data_block(std::string_view name, const std::string& rows) {
-  return fmt::format("${} << END_OF_DATA\n{}END_OF_DATA\n", name, rows);
-}
-
-/// gnuplot reads NaN in this spelling.
-std::string number_text(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "NaN";
-}
-
 std::string overlay_data(const PictureOverlay& overlay) {
   std::string script;
   std::string rows;
@@ -219,71 +194,6 @@ std::vector<std::string> overlay_plots(const PictureOverlay& overlay, bool joine
   return plots;
 }
 
-/// The picture's outer parts, then the same plot in both formats.
-std::string plotting_script(const std::string& title, bool has_key,
-                            const std::vector<std::string>& plots,
-                            const std::filesystem::path& stem) {
-  std::string script =
-      fmt::format("set title {} offset 0,0.4\nset border linewidth 0.8\n{}\n", gnuplot_text(title),
-                  has_key ? "set key below center horizontal Left reverse maxrows 1 samplen 1 "
-                            "width 1 height 1.4 font ',13'"
-                          : "unset key");
-  const auto output = [&](std::string_view terminal, const char* extension) {
-    script += fmt::format("set terminal {}\nset output {}\nplot {}\nunset output\n", terminal,
-                          gnuplot_text(stem.string() + extension), fmt::join(plots, ", \\\n  "));
-  };
-  output("svg size 760,600 dynamic noenhanced font 'sans-serif,15' background 'white'", ".svg");
-  output(
-      "pngcairo size 1140,900 noenhanced font 'Sans,16' fontscale 1.1 linewidth 1.5 "
-      "pointscale 1.5 background 'white'",
-      ".png");
-  return script;
-}
-
-/// Runs gnuplot on a script.
-/// @return why it failed; nothing where it did not
-std::optional<std::string> run_gnuplot(const std::string& script,
-                                       const std::filesystem::path& stem) {
-  const std::string script_file = stem.string() + ".gnuplot.part";
-  const std::string log_file = stem.string() + ".log.part";
-  const auto finish = [&](std::optional<std::string> failure) {
-    for (const std::string& file : {script_file, log_file}) {
-      std::error_code ignored;
-      std::filesystem::remove(file, ignored);
-    }
-    return failure;
-  };
-  std::ofstream stream(script_file);
-  stream << script;
-  stream.close();
-  if (!stream) return finish(fmt::format("cannot write {}", script_file));
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log_file.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  // Without the user's own start-up file.
-  std::array<std::string, 3> words{"gnuplot", "--default-settings", script_file};
-  std::array<char*, 4> arguments{words[0].data(), words[1].data(), words[2].data(), nullptr};
-  pid_t process = 0;
-  const int refusal =
-      posix_spawnp(&process, "gnuplot", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (refusal != 0) return finish(fmt::format("gnuplot: {}", std::strerror(refusal)));
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0) {
-    if (errno != EINTR) return finish(fmt::format("gnuplot: {}", std::strerror(errno)));
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return finish(std::nullopt);
-  std::ifstream log(log_file);
-  std::string reason;
-  for (std::string line; std::getline(log, line);) {
-    if (line.find_first_not_of(" \t^") != std::string::npos) reason = line;
-  }
-  return finish("gnuplot failed" + (reason.empty() ? reason : ": " + reason));
-}
-
 }  // namespace
 
 std::optional<std::string> write_picture(const MapPicture& picture,
@@ -325,8 +235,7 @@ std::optional<std::string> write_picture(const MapPicture& picture,
   for (std::size_t i = 0; i < viridis.size(); ++i) {
     colours.push_back(fmt::format("{} '{}'", i, viridis[i]));
   }
-  std::string script =
-      "set encoding utf8\n" + data_block("cells", cells) + overlay_data(picture.overlay);
+  std::string script = data_block("cells", cells) + overlay_data(picture.overlay);
   std::vector<std::string> plots{
       "$cells using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid border linewidth 0.4 linecolor "
       "palette "
@@ -353,7 +262,7 @@ std::optional<std::string> write_picture(const MapPicture& picture,
             "fillstyle solid noborder\n";
   const std::vector<std::string> overlay = overlay_plots(picture.overlay, true);
   plots.insert(plots.end(), overlay.begin(), overlay.end());
-  return run_gnuplot(script + plotting_script(picture.title, !overlay.empty(), plots, stem), stem);
+  return draw(script, {picture.title, overlay.empty() ? 0 : 1, plots}, stem);
 }
 
 std::optional<std::string> write_picture(const LinePicture& picture,
@@ -377,8 +286,7 @@ std::optional<std::string> write_picture(const LinePicture& picture,
   const double margin =
       0.05 * (values.greatest - values.least) + 1e-9 * std::max(1.0, std::abs(values.greatest));
   std::string script =
-      "set encoding utf8\n" + data_block("line", rows) + overlay_data(picture.overlay) +
-      x.script("x") +
+      data_block("line", rows) + overlay_data(picture.overlay) + x.script("x") +
       fmt::format(
           "set ylabel {}\nset ytics out nomirror\nset yrange [{}:{}]\nset grid linecolor "
           "rgb '#dddddd'\n",
@@ -389,7 +297,7 @@ std::optional<std::string> write_picture(const LinePicture& picture,
       "notitle"};
   const std::vector<std::string> overlay = overlay_plots(picture.overlay, false);
   plots.insert(plots.end(), overlay.begin(), overlay.end());
-  return run_gnuplot(script + plotting_script(picture.title, !overlay.empty(), plots, stem), stem);
+  return draw(script, {picture.title, overlay.empty() ? 0 : 1, plots}, stem);
 }
 
 }  // namespace nlcwfs

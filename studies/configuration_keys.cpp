@@ -505,7 +505,7 @@ std::vector<ConfigurationKey> make_keys() {
        .choices = {"nsga2", "nspso"}},
       {.name = "trade.population",
        .kind = Kind::integer,
-       .default_text = "8",
+       .default_text = "16",
        .description = "Designs in each generation of each number of planes, a multiple of 4.",
        .bounds = from_to(8, 1e6)},
       {.name = "trade.budget",

@@ -1,5 +1,6 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
+#include "results/scatter_picture.hpp"
 #include "studies/design_text.hpp"
 #include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
@@ -7,11 +8,13 @@
 #include "studies/studies.hpp"
 #include "studies/trade_search.hpp"
 #include "studies/trial_summary.hpp"
+#include "studies/units.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -109,6 +112,39 @@ std::string front_table(const TradeSearch& task, const TradeResult& result) {
     }
   }
   return table.text();
+}
+
+/// Total WFE against model time, whatever the objectives are.
+ScatterPicture front_picture(const TradeSearch& task, const TradeResult& result) {
+  ScatterPicture picture{
+      .title = fmt::format("Front of {:.4g} m at {}, D/r0 = {:.4g}, on fresh screens",
+                           task.telescope.diameter, format_length(task.telescope.wavelength),
+                           task.telescope.diameter / task.seeing.fried_parameter),
+      .x_label = "model time of a reconstruction, ms",
+      .y_label = "total wavefront error, nm",
+      .marked = result.knee,
+      .mark_label = "knee"};
+  std::set<std::size_t> planes;
+  std::set<int> pixels;
+  for (const TradedDesign& traded : result.front) {
+    planes.insert(cell_of(traded).first);
+    pixels.insert(cell_of(traded).second);
+  }
+  for (const std::size_t count : planes) picture.colours.push_back(fmt::format("{} planes", count));
+  for (const int count : pixels) picture.symbols.push_back(fmt::format("{} pixels", count));
+  for (const TradedDesign& traded : result.front) {
+    const auto [plane_count, pupil_pixels] = cell_of(traded);
+    const auto mean_of = [&](std::string_view metric) {
+      return task.verification.mean_of(traded.verified, *find_design_metric(metric));
+    };
+    picture.points.push_back(
+        {.x = 1e3 * mean_of("model_seconds").mean,
+         .y = mean_of("total_wfe_nm"),
+         .colour = static_cast<int>(std::distance(planes.begin(), planes.find(plane_count))),
+         .symbol = static_cast<int>(std::distance(pixels.begin(), pixels.find(pupil_pixels))),
+         .is_pale = !traded.stands()});
+  }
+  return picture;
 }
 
 /// A figure of an objective as people read it: times in ms.
@@ -281,6 +317,7 @@ void run_trade(const CommandLine& command_line) {
                "by the trade");
     record.folder().write("knee.cfg", knee_configuration.dump());
   }
+  const auto no_picture = write_picture(front_picture(task, result), record.folder().file("front"));
   Json names = Json::array();
   for (const DesignMetric& objective : task.objectives) names.push_back(objective.name);
   record.write_summary({{"objectives", names},
@@ -309,6 +346,7 @@ void run_trade(const CommandLine& command_line) {
     fmt::print("Front, on the fresh screens:\n{}{}\n", front_text(task, result),
                bests_text(task, result));
   }
+  if (no_picture) fmt::print("note: there is no picture of the front: {}\n", *no_picture);
   fmt::print("{}\n{}{}\n", knee_text(task, result), hypervolume_text(task, result),
              record.closing_line());
 }

@@ -1,0 +1,82 @@
+#include "results/scatter_picture.hpp"
+
+#include "results/gnuplot.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+/// Of Okabe & Ito (2008): distinct for the colour-blind.
+constexpr std::array palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00"};
+/// Of gnuplot's numbers: disc, square, triangle, diamond, inverted triangle, pentagon.
+constexpr std::array symbol_types{7, 5, 9, 13, 11, 15};
+
+std::string row_of(const ScatterPoint& point) {
+  // A logarithmic axis has no place for an error as large as its mean.
+  const double low = std::max(point.y.mean - point.y.standard_error, 0.1 * point.y.mean);
+  return fmt::format("{} {} {} {}\n", point.x, point.y.mean, low,
+                     point.y.mean + point.y.standard_error);
+}
+
+bool is_drawable(const ScatterPoint& point) { return point.x > 0.0 && point.y.mean > 0.0; }
+
+}  // namespace
+
+std::optional<std::string> write_picture(const ScatterPicture& picture,
+                                         const std::filesystem::path& stem) {
+  if (std::ranges::none_of(picture.points, is_drawable)) return "there is no value to draw";
+  std::string script = fmt::format(
+      "set xlabel {}\nset ylabel {}\nset logscale xy\nset xtics out nomirror\n"
+      "set ytics out nomirror\nset grid linecolor rgb '#dddddd'\nset offsets graph 0.03, graph "
+      "0.03, graph 0.03, graph 0.03\n",
+      gnuplot_text(picture.x_label), gnuplot_text(picture.y_label));
+  std::vector<std::string> plots;
+  for (std::size_t colour = 0; colour < picture.colours.size(); ++colour) {
+    for (std::size_t symbol = 0; symbol < picture.symbols.size(); ++symbol) {
+      for (const bool is_pale : {true, false}) {
+        std::string rows;
+        for (const ScatterPoint& point : picture.points) {
+          if (point.colour == static_cast<int>(colour) &&
+              point.symbol == static_cast<int>(symbol) && point.is_pale == is_pale &&
+              is_drawable(point)) {
+            rows += row_of(point);
+          }
+        }
+        if (rows.empty()) continue;
+        const std::string name = fmt::format("of{}_{}_{}", colour, symbol, is_pale ? 1 : 0);
+        script += data_block(name, rows);
+        plots.push_back(fmt::format(
+            "${} using 1:2:3:4 with yerrorbars pointtype {} pointsize 1 linecolor rgb '#{}{}' "
+            "notitle",
+            name, symbol_types[symbol % symbol_types.size()], is_pale ? "b0" : "20",
+            palette[colour % palette.size()] + 1));
+      }
+    }
+  }
+  if (picture.marked && is_drawable(picture.points[*picture.marked])) {
+    script += data_block("marked", row_of(picture.points[*picture.marked]));
+    plots.push_back(fmt::format(
+        "$marked using 1:2 with points pointtype 6 pointsize 2.6 linewidth 1.6 linecolor rgb "
+        "'black' title {}",
+        gnuplot_text(picture.mark_label)));
+  }
+  for (std::size_t colour = 0; colour < picture.colours.size(); ++colour) {
+    plots.push_back(
+        fmt::format("NaN with points pointtype 7 pointsize 1 linecolor rgb '{}' title "
+                    "{}",
+                    palette[colour % palette.size()], gnuplot_text(picture.colours[colour])));
+  }
+  for (std::size_t symbol = 0; symbol < picture.symbols.size(); ++symbol) {
+    plots.push_back(fmt::format(
+        "NaN with points pointtype {} pointsize 1 linecolor rgb '#606060' "
+        "title {}",
+        symbol_types[symbol % symbol_types.size()], gnuplot_text(picture.symbols[symbol])));
+  }
+  return draw(script, {picture.title, 2, plots}, stem);
+}
+
+}  // namespace nlcwfs
