@@ -232,7 +232,8 @@ TEST_F(TradeStudy, AnInterruptedOneVerifiesTheFrontSoFar) {
   EXPECT_THAT(finished.output, HasSubstr("until it was interrupted"));
   const Json json = summary("run");
   EXPECT_EQ(json["termination"], "stop_requested");
-  EXPECT_EQ(json["front"].size(), std::min<std::size_t>(json["front_of_search"], 24));
+  EXPECT_EQ(json["front"].size(),
+            std::min(json["front_of_search"].get<std::size_t>(), std::size_t{24}));
   EXPECT_EQ(line_count("run/search.csv"), std::size_t(json["evaluations"]) + 1);
 }
 
