@@ -140,13 +140,16 @@ std::string ranges_text(const DesignSearch& task, const DesignSearchResult& resu
     const auto shown = [&](double value) {
       return is_length ? format_length(value) : fmt::format("{:.4g}", value);
     };
-    text += fmt::format(
-        "  {:<24} {:>10} to {:<10}{}\n", range.name, shown(range.least), shown(range.greatest),
-        range.least_is_bound && range.greatest_is_bound ? "  all that was searched"
-        : range.least_is_bound || range.greatest_is_bound
-            ? fmt::format("  {} is the end of what was searched",
-                          shown(range.least_is_bound ? range.least : range.greatest))
-            : "");
+    // With its value, since the pair that a search calls near may be the farther one.
+    text += fmt::format("  {:<28} {:>10}: {:>10} to {}", range.name, shown(range.best),
+                        shown(range.least), shown(range.greatest));
+    if (range.least_is_bound && range.greatest_is_bound) {
+      text += ", all that was searched";
+    } else if (range.least_is_bound || range.greatest_is_bound) {
+      text += fmt::format("; {} is the end of what was searched",
+                          shown(range.least_is_bound ? range.least : range.greatest));
+    }
+    text += '\n';
   }
   return text + '\n';
 }
