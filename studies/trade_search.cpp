@@ -120,7 +120,7 @@ TradeSearch::TradeSearch(const Configuration& configuration)
   require_verifiable_designs(configuration, space, verification);
   const Operation& operation = trial.cost().operation;
   for (const DesignMetric& objective : objectives) objective.validate(operation);
-  const SensorDesign configured = design_of(configuration);
+  const SensorDesign configured = trial.checked(design_of(configuration));
   reference_ = reference_of(configuration, objectives, configured, operation);
   if (!configuration.text("screens.file").empty()) {
     notes.emplace_back("the verification is on simulated screens of the configured seeing");

@@ -17,6 +17,7 @@
 #include <set>
 #include <utility>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -173,10 +174,11 @@ std::string search_text(const TradeSearch& task, const TradeResult& result,
                         const Configuration& configuration) {
   const std::size_t conditions = task.trial.conditions().size();
   const std::size_t found = result.search.front.size();
+  const std::string planes = boost::algorithm::replace_first_copy(
+      configuration.value_text("search.plane_count"), ":", " to ");
   std::string text =
       fmt::format("Tried {} designs of {} planes on {} screens{} in {} precision in {}, {}",
-                  result.search.evaluations, configuration.value_text("search.plane_count"),
-                  task.trial.screen_count(),
+                  result.search.evaluations, planes, task.trial.screen_count(),
                   conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "",
                   configuration.choice("search.precision"), duration_text(result.search_seconds),
                   ending_text(result.search.termination));

@@ -55,7 +55,7 @@ TEST_F(TradeStudy, LeavesItsFiles) {
                                            "front.svg", "knee.cfg", "search.csv", "summary.json"));
   EXPECT_THAT(finished.output,
               AllOf(StartsWith("0.5 m telescope at 532 nm, D/r0 = 4"),
-                    HasSubstr("Tried 72 designs of 2:5 planes on 2 screens"),
+                    HasSubstr("Tried 72 designs of 2 to 5 planes on 2 screens"),
                     HasSubstr("all that trade.budget allows"), HasSubstr("Front, on the fresh"),
                     HasSubstr("Best total_wfe_nm with plane_count of at most"),
                     HasSubstr("Knee (*)"), EndsWith("Results are in run.\n")));
