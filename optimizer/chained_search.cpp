@@ -269,7 +269,10 @@ SearchResult search(Problem& problem, const SearchOptions& options) {
   SearchResult result;
   try {
     chain.run();
-    result.termination = Termination::converged;
+    // A round that ends with the last evaluation does not know what one more would have found.
+    result.termination = evaluator.evaluations() < options.evaluation.budget
+                             ? Termination::converged
+                             : Termination::budget_exhausted;
   } catch (const SearchStopped& stopped) {
     result.termination = stopped.termination;
   }
