@@ -196,6 +196,26 @@ std::optional<SymmetricPlanes> symmetric_planes(const std::vector<double>& plane
   return found;
 }
 
+std::vector<SymmetricPlanes> symmetric_namings(const std::vector<double>& planes) {
+  const auto symmetric = symmetric_planes(planes);
+  if (!symmetric) return {};
+  std::vector<SymmetricPlanes> namings;
+  std::vector<std::size_t> called(symmetric->pairs.size());
+  std::iota(called.begin(), called.end(), std::size_t{0});
+  do {
+    SymmetricPlanes& naming = namings.emplace_back();
+    naming.pairs.resize(called.size());
+    for (std::size_t pair = 0; pair < called.size(); ++pair) {
+      naming.pairs[called[pair]] = symmetric->pairs[pair];
+    }
+    for (const int number : symmetric->order) {
+      const std::size_t name = called[static_cast<std::size_t>((number - 1) / 2)];
+      naming.order.push_back(static_cast<int>(2 * name) + (number % 2 == 1 ? 1 : 2));
+    }
+  } while (std::ranges::next_permutation(called).found);
+  return namings;
+}
+
 DistanceRange default_distance_range(const Telescope& telescope) {
   return {distance_at_fresnel_number(telescope, nearest_fresnel_number),
           distance_at_fresnel_number(telescope, farthest_fresnel_number)};
@@ -438,23 +458,16 @@ std::optional<SearchPoint> DesignSpace::point_of(const SensorDesign& design) con
   const auto region = std::ranges::find(regions_, planes, &Region::planes);
   if (region == regions_.end()) return std::nullopt;
   const std::vector<std::string> names = region->distances(options_.layout);
-  if (options_.layout == Layout::free) {
+  const auto add_naming = [&](const std::vector<double>& distances, const VisitingOrder& order) {
     Naming& naming = namings.emplace_back();
-    for (std::size_t i = 0; i < names.size(); ++i) naming.distances[names[i]] = design.planes[i];
-  } else if (const auto symmetric = symmetric_planes(design.planes)) {
+    naming.order = order;
+    for (std::size_t i = 0; i < names.size(); ++i) naming.distances[names[i]] = distances[i];
+  };
+  if (options_.layout == Layout::free) {
+    add_naming(design.planes, {});
+  } else {
     // Where the ranges overlap or are exchanged, the nearer pair may be the one called far.
-    std::vector<std::size_t> called(names.size());
-    std::iota(called.begin(), called.end(), std::size_t{0});
-    do {
-      Naming& naming = namings.emplace_back();
-      for (std::size_t pair = 0; pair < called.size(); ++pair) {
-        naming.distances[names[called[pair]]] = symmetric->pairs[pair];
-      }
-      for (const int number : symmetric->order) {
-        const std::size_t name = called[static_cast<std::size_t>((number - 1) / 2)];
-        naming.order.push_back(static_cast<int>(2 * name) + (number % 2 == 1 ? 1 : 2));
-      }
-    } while (std::ranges::next_permutation(called).found);
+    for (const auto& [pairs, order] : symmetric_namings(design.planes)) add_naming(pairs, order);
   }
 
   const auto value_of = [&](const Naming& naming, const std::string& name) {

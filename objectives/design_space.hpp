@@ -70,6 +70,11 @@ struct SymmetricPlanes {
 /// @param planes  signed m, in visiting order
 std::optional<SymmetricPlanes> symmetric_planes(const std::vector<double>& planes);
 
+/// Every way to call a symmetric layout's pairs near, far and third, with the order that goes with
+/// each: `pairs` are in the order of pair_names, not ascending. The first calls the nearest pair
+/// near. Empty for other layouts.
+std::vector<SymmetricPlanes> symmetric_namings(const std::vector<double>& planes);
+
 /// A range of distances, m.
 using DistanceRange = std::pair<double, double>;
 

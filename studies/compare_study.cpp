@@ -356,7 +356,8 @@ void run_compare(const CommandLine& command_line) {
       performance_table({{"sweep", &swept_performance, swept.costs},
                          {"optimize", &found_performance, found.costs}}));
   fmt::print("\n{}\n\n", verdict_text(gain, mean_and_standard_error(swept.costs).mean));
-  fmt::print("  {:<22} {:>14} {:>14} {:>10}\n", "what finding it took", "sweep", "optimize", "ratio");
+  fmt::print("  {:<22} {:>14} {:>14} {:>10}\n", "what finding it took", "sweep", "optimize",
+             "ratio");
   fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "designs", sweep.designs, optimize.designs,
              designs_ratio);
   fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "reconstructions", sweep.reconstructions,

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
@@ -58,7 +59,8 @@ struct GridPictureAxis {
   explicit GridPictureAxis(const Json& axis);
 
   /// Where a design stands on it; NaN where nowhere.
-  double place_of(const SensorDesign& design) const;
+  /// @param orders  that the grid has: they say which pair it calls near
+  double place_of(const SensorDesign& design, const std::vector<std::string>& orders) const;
 
   std::string name;
   PictureAxis drawn;
@@ -88,19 +90,25 @@ GridPictureAxis::GridPictureAxis(const Json& axis) : name(axis.at("name")) {
   for (double& value : drawn.values) value /= unit;
 }
 
-double GridPictureAxis::place_of(const SensorDesign& design) const {
+std::string word_of(const VisitingOrder& order) { return fmt::format("{}", fmt::join(order, "")); }
+
+double GridPictureAxis::place_of(const SensorDesign& design,
+                                 const std::vector<std::string>& orders) const {
   if (name == "plane_count") return double(design.planes.size());
-  const auto pairs = symmetric_planes(design.planes);
+  const std::vector<SymmetricPlanes> namings = symmetric_namings(design.planes);
+  auto pairs = std::ranges::find_if(namings, [&](const SymmetricPlanes& naming) {
+    return std::ranges::count(orders, word_of(naming.order)) > 0;
+  });
+  if (pairs == namings.end()) pairs = namings.begin();
+  const bool is_symmetric = !namings.empty();
   const auto* const pair = std::ranges::find(pair_names, name);
   if (pair != std::end(pair_names)) {
     const auto index = static_cast<std::size_t>(pair - std::begin(pair_names));
-    return pairs && index < pairs->pairs.size() ? pairs->pairs[index] / unit : nan;
+    return is_symmetric && index < pairs->pairs.size() ? pairs->pairs[index] / unit : nan;
   }
   if (name == "order") {
-    if (!pairs) return nan;
-    std::string word;
-    for (const int number : pairs->order) word += fmt::format("{}", number);
-    const auto found = std::ranges::find(drawn.words, word);
+    if (!is_symmetric) return nan;
+    const auto found = std::ranges::find(drawn.words, word_of(pairs->order));
     return found == drawn.words.end() ? nan : double(found - drawn.words.begin());
   }
   if (name.size() == 2 && name[0] == 'z') {
@@ -193,9 +201,11 @@ std::optional<std::string> write_grid_picture(const std::string& title, const Js
   if (axes.empty()) return "the grid has one value on each axis";
   const std::vector<double> values = drawn.values_of(grid.at(figure));
 
+  const std::vector<std::string> orders = grid.at("orders");
+
   const auto point_of = [&](const CostedDesign& tried) {
-    return PicturePoint{axes[0].place_of(tried.design),
-                        axes.size() > 1 ? axes[1].place_of(tried.design) : tried.cost};
+    return PicturePoint{axes[0].place_of(tried.design, orders),
+                        axes.size() > 1 ? axes[1].place_of(tried.design, orders) : tried.cost};
   };
   const auto is_on_picture = [](const PicturePoint& point) {
     return std::isfinite(point.x) && std::isfinite(point.y);

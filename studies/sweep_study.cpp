@@ -355,6 +355,11 @@ Json grid_object(const DesignGrid& grid, const std::vector<const Outcome*>& poin
       values.push_back(axis_value(grid, axis, i));
     object["axes"].push_back({{"name", axis.name}, {"unit", axis_unit(axis)}, {"values", values}});
   }
+  // They say which of a design's pairs the axes call near.
+  object["orders"] = Json::array();
+  for (const VisitingOrder& order : grid.orders()) {
+    object["orders"].push_back(fmt::format("{}", fmt::join(order, "")));
+  }
   Json errors;
   object["cost"] = matrix_of(grid, points, [](const Outcome& point) { return point.cost.mean; });
   errors["cost"] =
@@ -458,8 +463,7 @@ void run_sweep(const CommandLine& command_line) {
        {"points", task.grid.size()},
        {"evaluations", evaluations},
        {"failures", failures},
-       {"search_reconstructions", std::int64_t(evaluations - failures) *
-                                      task.trial.screen_count() *
+       {"search_reconstructions", std::int64_t(evaluations - failures) * task.trial.screen_count() *
                                       static_cast<std::int64_t>(task.trial.conditions().size())},
        {"reconstructions", (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
                             task.verification.screen_count()) *

@@ -129,6 +129,26 @@ TEST(SymmetricPlanes, AreNotFoundInOtherLayouts) {
   }
 }
 
+TEST(SymmetricNamings, GiveTheSamePlanesUnderEveryName) {
+  const std::vector<SymmetricPlanes> two = symmetric_namings({-120.0, 120.0, -30.0, 30.0});
+  ASSERT_THAT(two, SizeIs(2));
+  EXPECT_THAT(two[0].pairs, ElementsAre(30.0, 120.0));
+  EXPECT_THAT(two[0].order, ElementsAre(3, 4, 1, 2));
+  EXPECT_THAT(two[1].pairs, ElementsAre(120.0, 30.0));
+  EXPECT_THAT(two[1].order, ElementsAre(1, 2, 3, 4));
+  const std::vector<double> five{1.0, -3.0, 3.0, -2.0, -1.0};
+  const std::vector<SymmetricPlanes> three = symmetric_namings(five);
+  EXPECT_THAT(three, SizeIs(6));
+  for (const SymmetricPlanes& naming : three) {
+    const DesignSpace space = symmetric({{"z_near", std::vector{naming.pairs[0]}},
+                                         {"z_far", std::vector{naming.pairs[1]}},
+                                         {"z_third", std::vector{naming.pairs[2]}}},
+                                        {5}, {naming.order});
+    EXPECT_EQ(space.design({0, Eigen::VectorXd()}).planes, five);
+  }
+  EXPECT_THAT(symmetric_namings({1.0, 2.0}), SizeIs(0));
+}
+
 TEST(SymmetricSpace, VisitsEveryNumberOfPlanesInAllOrdersOnce) {
   for (const auto& [planes, orders] : {std::pair{2, 2}, {3, 24}, {4, 24}, {5, 720}, {6, 720}}) {
     Domains domains{{"z_near", std::vector{5e3}}};
