@@ -69,7 +69,7 @@ std::string planes_table(const SensorDesign& design, const Telescope& telescope,
 std::string choices_text(const DesignSpace& space, const SensorDesign& design) {
   std::string text;
   for (const DesignProperty& property : design_properties()) {
-    if (!space.varies(property.name)) continue;
+    if (!space.decides(property.name)) continue;
     const double value = property.get(design);
     const std::string shown = property.name == "initial_guess"
                                   ? (value == 0.0 ? "flat" : "centroid")

@@ -25,7 +25,7 @@ std::string telescope_line(const Telescope& telescope, const Seeing& seeing);
 std::string planes_table(const SensorDesign& design, const Telescope& telescope,
                          const Seeing& seeing, const Performance* performance = nullptr);
 
-/// A line with what a space varies of a design other than its planes; empty where that is nothing.
+/// A line with what a space decides on other than the planes; empty where that is nothing.
 std::string choices_text(const DesignSpace& space, const SensorDesign& design);
 
 /// A column of a performance table.
