@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -29,11 +30,23 @@ bool is_drawable(const ScatterPoint& point) { return point.x > 0.0 && point.y.me
 std::optional<std::string> write_picture(const ScatterPicture& picture,
                                          const std::filesystem::path& stem) {
   if (std::ranges::none_of(picture.points, is_drawable)) return "there is no value to draw";
+  // Gnuplot's own range would end at whole decades.
+  constexpr double margin = 1.3;
+  double ends[2][2] = {{HUGE_VAL, 0.0}, {HUGE_VAL, 0.0}};
+  for (const ScatterPoint& point : picture.points) {
+    if (!is_drawable(point)) continue;
+    const double values[2] = {point.x, point.y.mean};
+    for (int axis = 0; axis < 2; ++axis) {
+      ends[axis][0] = std::min(ends[axis][0], values[axis] / margin);
+      ends[axis][1] = std::max(ends[axis][1], values[axis] * margin);
+    }
+  }
   std::string script = fmt::format(
       "set xlabel {}\nset ylabel {}\nset logscale xy\nset xtics out nomirror\n"
-      "set ytics out nomirror\nset grid linecolor rgb '#dddddd'\nset offsets graph 0.03, graph "
-      "0.03, graph 0.03, graph 0.03\n",
-      gnuplot_text(picture.x_label), gnuplot_text(picture.y_label));
+      "set ytics out nomirror\nset grid linecolor rgb '#dddddd'\n"
+      "set xrange [{}:{}]\nset yrange [{}:{}]\n",
+      gnuplot_text(picture.x_label), gnuplot_text(picture.y_label), ends[0][0], ends[0][1],
+      ends[1][0], ends[1][1]);
   std::vector<std::string> plots;
   for (std::size_t colour = 0; colour < picture.colours.size(); ++colour) {
     for (std::size_t symbol = 0; symbol < picture.symbols.size(); ++symbol) {
