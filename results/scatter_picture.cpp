@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,6 +25,25 @@ std::string row_of(const ScatterPoint& point) {
                      point.y.mean + point.y.standard_error);
 }
 
+/// A logarithmic axis that reaches little further than its values, where gnuplot's own would end at
+/// whole decades, with round numbers on it.
+std::string axis(std::string_view name, const std::vector<double>& values) {
+  constexpr double margin = 1.3;
+  const double least = std::ranges::min(values) / margin;
+  const double greatest = std::ranges::max(values) * margin;
+  std::string tics;
+  for (double decade = std::pow(10.0, std::floor(std::log10(least))); decade < greatest;
+       decade *= 10.0) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double tic = factor * decade;
+      if (tic < least || tic > greatest) continue;
+      tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", tic, tic);
+    }
+  }
+  return fmt::format("set logscale {0}\nset {0}range [{1}:{2}]\nset {0}tics out nomirror ({3})\n",
+                     name, least, greatest, tics);
+}
+
 bool is_drawable(const ScatterPoint& point) { return point.x > 0.0 && point.y.mean > 0.0; }
 
 }  // namespace
@@ -30,23 +51,16 @@ bool is_drawable(const ScatterPoint& point) { return point.x > 0.0 && point.y.me
 std::optional<std::string> write_picture(const ScatterPicture& picture,
                                          const std::filesystem::path& stem) {
   if (std::ranges::none_of(picture.points, is_drawable)) return "there is no value to draw";
-  // Gnuplot's own range would end at whole decades.
-  constexpr double margin = 1.3;
-  double ends[2][2] = {{HUGE_VAL, 0.0}, {HUGE_VAL, 0.0}};
+  std::vector<double> xs;
+  std::vector<double> ys;
   for (const ScatterPoint& point : picture.points) {
     if (!is_drawable(point)) continue;
-    const double values[2] = {point.x, point.y.mean};
-    for (int axis = 0; axis < 2; ++axis) {
-      ends[axis][0] = std::min(ends[axis][0], values[axis] / margin);
-      ends[axis][1] = std::max(ends[axis][1], values[axis] * margin);
-    }
+    xs.push_back(point.x);
+    ys.push_back(point.y.mean);
   }
   std::string script = fmt::format(
-      "set xlabel {}\nset ylabel {}\nset logscale xy\nset xtics out nomirror\n"
-      "set ytics out nomirror\nset grid linecolor rgb '#dddddd'\n"
-      "set xrange [{}:{}]\nset yrange [{}:{}]\n",
-      gnuplot_text(picture.x_label), gnuplot_text(picture.y_label), ends[0][0], ends[0][1],
-      ends[1][0], ends[1][1]);
+      "set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
+      gnuplot_text(picture.x_label), gnuplot_text(picture.y_label), axis("x", xs), axis("y", ys));
   std::vector<std::string> plots;
   for (std::size_t colour = 0; colour < picture.colours.size(); ++colour) {
     for (std::size_t symbol = 0; symbol < picture.symbols.size(); ++symbol) {

@@ -521,11 +521,12 @@ std::vector<ConfigurationKey> make_keys() {
        .bounds = from_to(1, 1e6)},
       {.name = "trade.reference",
        .kind = Kind::number_list,
-       .description = "Reference point of the hypervolume: a bound that counts as worthless, for "
-                      "each objective in its unit. Not set: a quarter of the wavelength for "
-                      "wavefront errors, the model time of reconstruction.max_loops loops and the "
-                      "detector pixels of seven planes as configured, seven planes; of other "
-                      "metrics the worst value in the first populations.",
+       .description =
+           "Reference point of the hypervolume: a bound that counts as worthless, for "
+           "each objective in its unit. Not set: a quarter of the wavelength for "
+           "wavefront errors, the greatest model time of reconstruction.max_loops loops and "
+           "detector pixels that seven planes could have here, seven planes; of other "
+           "metrics the worst value in the first populations.",
        .example = "100,0.5,400000,7"},
 
       {.name = "baseline.planes",

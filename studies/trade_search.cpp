@@ -37,10 +37,39 @@ ParetoOptions pareto_options_of(const Configuration& configuration) {
   return options;
 }
 
+/// The greatest figure of a space's designs, for one that every variable moves in one direction
+/// whatever the others are.
+template <class Figure>
+double greatest(const DesignSpace& space, const Figure& figure) {
+  double greatest = 0.0;
+  const std::vector<SubSpace> sub_spaces = space.sub_spaces();
+  for (std::size_t s = 0; s < sub_spaces.size(); ++s) {
+    const std::vector<Variable>& variables = sub_spaces[s].variables;
+    SearchPoint point{static_cast<int>(s), Eigen::VectorXd(variables.size())};
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      point.x[Eigen::Index(i)] = variables[i].lower;
+    }
+    double best = 0.0;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const auto& [name, lower, upper, kind] = variables[i];
+      const double step = kind == VariableKind::continuous ? upper - lower : 1.0;
+      SearchPoint moved = point;
+      for (double& x = moved.x[Eigen::Index(i)] = lower; x <= upper; x += step) {
+        const double value = figure(space.design(moved));
+        if (value <= best) continue;
+        best = value;
+        point = moved;
+      }
+    }
+    greatest = std::max(greatest, best);
+  }
+  return greatest;
+}
+
 /// What a metric may be before a design is worthless, whatever a search finds: the same for every
-/// run of a configuration, so that hypervolumes can be compared. Nothing for a metric without such
-/// a value.
-std::optional<double> worthless_value(const DesignMetric& metric, const SensorDesign& configured,
+/// run of a configuration, so that hypervolumes can be compared, and no less than any design of the
+/// space has, where that is known. Nothing for a metric without such a value.
+std::optional<double> worthless_value(const DesignMetric& metric, const DesignSpace& space,
                                       const Operation& operation) {
   // One more than a sensor may have.
   constexpr double planes = 7.0;
@@ -51,11 +80,15 @@ std::optional<double> worthless_value(const DesignMetric& metric, const SensorDe
   }
   if (metric.name == "model_seconds") {
     // Two transforms between planes, and from and to the pupil.
-    const double transforms = 2.0 * (planes + 1.0) * configured.reconstruction.max_loops;
-    return transforms * operation.transform_seconds(configured);
+    return greatest(space, [&](const SensorDesign& design) {
+      const double transforms = 2.0 * (planes + 1.0) * design.reconstruction.max_loops;
+      return transforms * operation.transform_seconds(design);
+    });
   }
   if (metric.name == "detector_pixels") {
-    return planes * configured.detector.width() * configured.detector.width();
+    return greatest(space, [](const SensorDesign& design) {
+      return planes * design.detector.width() * design.detector.width();
+    });
   }
   if (metric.name == "plane_count") return planes;
   return std::nullopt;
@@ -63,12 +96,12 @@ std::optional<double> worthless_value(const DesignMetric& metric, const SensorDe
 
 std::vector<std::optional<double>> reference_of(const Configuration& configuration,
                                                 const std::vector<DesignMetric>& objectives,
-                                                const SensorDesign& configured,
+                                                const DesignSpace& space,
                                                 const Operation& operation) {
   std::vector<std::optional<double>> reference;
   if (!configuration.is_set("trade.reference")) {
     for (const DesignMetric& objective : objectives) {
-      auto value = worthless_value(objective, configured, operation);
+      auto value = worthless_value(objective, space, operation);
       if (value) value = objective.minimised(*value);
       reference.push_back(value);
     }
@@ -121,7 +154,7 @@ TradeSearch::TradeSearch(const Configuration& configuration)
   const Operation& operation = trial.cost().operation;
   for (const DesignMetric& objective : objectives) objective.validate(operation);
   const SensorDesign configured = trial.checked(design_of(configuration));
-  reference_ = reference_of(configuration, objectives, configured, operation);
+  reference_ = reference_of(configuration, objectives, space, operation);
   if (!configuration.text("screens.file").empty()) {
     notes.emplace_back("the verification is on simulated screens of the configured seeing");
   }

@@ -148,9 +148,12 @@ ScatterPicture front_picture(const TradeSearch& task, const TradeResult& result)
   return picture;
 }
 
-/// A figure of an objective as people read it: times in ms.
+/// A figure of an objective as people read it.
 std::string figure_text(const DesignMetric& metric, const MeanAndError& value) {
-  if (metric.unit == "s") return fmt::format("{:.3g} ms", 1e3 * value.mean);
+  if (metric.unit == "s") {
+    return value.mean < 1.0 ? fmt::format("{:.3g} ms", 1e3 * value.mean)
+                            : fmt::format("{:.3g} s", value.mean);
+  }
   if (value.standard_error == 0.0) return fmt::format("{:.6g}", value.mean);
   return with_error(value) + (metric.unit.empty() ? "" : fmt::format(" {}", metric.unit));
 }

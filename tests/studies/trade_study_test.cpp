@@ -191,6 +191,20 @@ TEST_F(TradeStudy, TheHypervolumeIsAgainstTheReferencePoint) {
   EXPECT_EQ(summary("worthless")["hypervolume"], 0.0);
 }
 
+TEST_F(TradeStudy, TheReferencePointIsBeyondTheLargestDesignOfTheSpace) {
+  traded("run", {"--detector.pupil_pixels", "16", "--search.pupil_pixels", "32,8",
+                 "--search.reconstruction_oversampling", "2,1"});
+  const Json json = summary("run");
+  EXPECT_EQ(json["reference_point"]["detector_pixels"], 7.0 * 64.0 * 64.0);
+  double slowest = 0.0;
+  for (const Json& design : json["front"]) {
+    const double seconds = design["objectives"]["model_seconds"]["mean"];
+    EXPECT_LE(seconds, json["reference_point"]["model_seconds"]);
+    slowest = std::max(slowest, seconds);
+  }
+  EXPECT_GT(slowest, 0.0);
+}
+
 TEST_F(TradeStudy, KeepsTheLimits) {
   const ProgramRun finished =
       traded("run", {"--objective.limits", "plane_count<3.5,total_wfe_nm<150"});
