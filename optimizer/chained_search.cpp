@@ -84,9 +84,12 @@ class ChainedSearch {
       return;
     }
     for (EvaluatedDesign before;;) {
+      const int evaluations_before = evaluator_.evaluations();
       search_globally();
       const bool all_compared = compare_neighbours();
       refine();
+      // Another round would ask the same again.
+      if (evaluator_.evaluations() == evaluations_before) return;
       const EvaluatedDesign best = evaluator_.best().value_or(EvaluatedDesign{});
       if (all_compared && !is_better(best, before)) return;
       before = best;
@@ -115,8 +118,8 @@ class ChainedSearch {
 
   void search_globally() {
     const auto other_slices = static_cast<int>(neighbours(best_point()).size());
-    const int share =
-        static_cast<int>(global_share * (evaluator_.evaluations_left() - other_slices));
+    const int compared = std::min(other_slices, affordable_neighbours());
+    const int share = static_cast<int>(global_share * (evaluator_.evaluations_left() - compared));
     if (method_.global.empty() || share < 1) return;
     begin_stage(method_.global);
     const bool first_round = round_ == 0;
@@ -166,22 +169,29 @@ class ChainedSearch {
     return moved;
   }
 
-  /// @return false where there were too many to compare all
+  int affordable_neighbours() const {
+    return std::max(neighbours_always_compared,
+                    static_cast<int>(neighbour_share * evaluator_.evaluations_left()));
+  }
+
+  /// @return false where there were too many new ones to compare all
   bool compare_neighbours() {
     begin_stage("choices");
     std::vector<SearchPoint> points = neighbours(best_point());
-    const int affordable =
-        std::max(neighbours_always_compared,
-                 static_cast<int>(neighbour_share * evaluator_.evaluations_left()));
-    const bool all = static_cast<int>(points.size()) <= affordable;
+    // What is known already costs nothing.
+    const auto unknown = std::ranges::stable_partition(
+        points, [&](const SearchPoint& point) { return evaluator_.was_evaluated(point); });
+    const auto first_new = static_cast<std::size_t>(unknown.begin() - points.begin());
+    const std::size_t affordable = first_new + static_cast<std::size_t>(affordable_neighbours());
+    const bool all = points.size() <= affordable;
     if (!all) {
       boost::random::mt19937_64 generator(seed_ +
                                           static_cast<std::uint64_t>(evaluator_.evaluations()));
-      for (std::size_t i = 0; i < static_cast<std::size_t>(affordable); ++i) {
+      for (std::size_t i = first_new; i < affordable; ++i) {
         const boost::random::uniform_int_distribution<std::size_t> any_left(i, points.size() - 1);
         std::swap(points[i], points[any_left(generator)]);
       }
-      points.resize(static_cast<std::size_t>(affordable));
+      points.resize(affordable);
     }
     evaluator_.evaluate(points);
     return all;

@@ -21,8 +21,9 @@ using DlibVector = dlib::matrix<double, 0, 1>;
 /// Fixed, as it decides the path. Measured on mixed test problems, with 100 and 300 evaluations:
 /// batches of 2 to 8 lose nothing that shows beside the scatter between seeds.
 constexpr int batch_size = 4;
-/// Batches without a new design, beyond those that can be a replay, after which the run ends.
-constexpr int known_batches_allowed = 25;
+/// Batches in a row without a new design after which the run ends. Each costs dlib more than the
+/// one before, as known designs refine its model too.
+constexpr int known_batches_allowed = 10;
 
 /// dlib sees continuous variables from 0 to 1; discrete ones must stay whole numbers.
 struct Box {
@@ -128,7 +129,6 @@ StageResult minimize_with_dlib(Evaluator& evaluator, const std::vector<SearchPoi
     return boxes[static_cast<std::size_t>(point.sub_space)];
   };
 
-  const int known_before = evaluator.evaluations();
   DlibRun run(evaluator, options.max_evaluations);
   const std::vector<double> first_answers = run.ask(points);
   if (run.is_over()) return {run.evaluations(), false};
@@ -140,7 +140,7 @@ StageResult minimize_with_dlib(Evaluator& evaluator, const std::vector<SearchPoi
   dlib::global_function_search search(specifications, first_evaluations);
   search.set_seed(static_cast<std::time_t>(options.seed));
 
-  for (int known_batches = 0; known_batches < known_before + known_batches_allowed;) {
+  for (int known_batches = 0; known_batches < known_batches_allowed;) {
     std::vector<dlib::function_evaluation_request> requests;
     points.clear();
     for (int i = 0; i < batch_size; ++i) {

@@ -113,6 +113,10 @@ void Evaluator::evaluate_batch(std::span<const SearchPoint> requested,
   }
 }
 
+bool Evaluator::was_evaluated(const SearchPoint& point) const {
+  return cache_.contains(problem_.key(within_bounds(point)));
+}
+
 std::optional<EvaluatedDesign> Evaluator::known(const SearchPoint& point) const {
   SearchPoint inside = within_bounds(point);
   const auto found = cache_.find(problem_.key(inside));
@@ -274,14 +278,15 @@ double Evaluator::seconds_since_start() const {
 }
 
 int Evaluator::allowed_evaluations(int wanted) const {
-  if (options_.stop.stop_requested()) throw SearchStopped(Termination::stop_requested);
+  const bool is_stopped = options_.stop.stop_requested();
+  const bool is_late = options_.time_limit && seconds_since_start() >= *options_.time_limit;
+  if (evaluations_ == 0 && (is_stopped || is_late)) return 1;
+  if (is_stopped) throw SearchStopped(Termination::stop_requested);
   if (options_.target && best_ && best_->violation == 0.0 && best_->cost <= *options_.target) {
     throw SearchStopped(Termination::target_reached);
   }
   if (evaluations_ >= options_.budget) throw SearchStopped(Termination::budget_exhausted);
-  if (options_.time_limit && evaluations_ > 0 && seconds_since_start() >= *options_.time_limit) {
-    throw SearchStopped(Termination::time_limit);
-  }
+  if (is_late) throw SearchStopped(Termination::time_limit);
   if (options_.stagnation > 0 && evaluations_without_improvement_ >= options_.stagnation) {
     throw SearchStopped(Termination::stagnated);
   }

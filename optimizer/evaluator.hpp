@@ -54,7 +54,9 @@ struct EvaluatorOptions {
   int budget = 150;  ///< evaluations at most, at least 1; answers from the cache are free
   /// No evaluation starts later than this after the evaluator was made, s; the first always does.
   std::optional<double> time_limit = {};
-  std::stop_token stop = {};  ///< no evaluation starts once a stop is requested
+  /// No evaluation starts once a stop is requested; the first one always does, so that there is a
+  /// result.
+  std::stop_token stop = {};
   /// No evaluation starts once the best design keeps the limits and costs no more than this.
   std::optional<double> target = {};
   /// No evaluation starts after so many in a row that improved nothing; 0 = whatever they did.
@@ -129,6 +131,9 @@ class Evaluator {
   /// limit, at the mean time per evaluation so far, comes first.
   int evaluations_left() const;
 
+  /// Whether asking for a point costs no evaluation.
+  bool was_evaluated(const SearchPoint& point) const;
+
   /// The design at a point; nothing where it was not evaluated or has no cost.
   std::optional<EvaluatedDesign> known(const SearchPoint& point) const;
 
@@ -150,8 +155,8 @@ class Evaluator {
  private:
   struct Answer {
     EvaluatedDesign design;
-    double value;  ///< what optimizers are told
-    bool failed;
+    double value = 0.0;  ///< what optimizers are told
+    bool failed = false;
   };
 
   struct Evaluation {

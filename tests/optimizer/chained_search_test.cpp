@@ -240,15 +240,65 @@ TEST(ChainedSearch, EndsWithACompleteResultWhenAStopIsRequested) {
   EXPECT_EQ(result.best_designs.size(), 5u);
 }
 
-TEST(ChainedSearch, HasNoBestDesignWhereItWasStoppedBeforeItBegan) {
+TEST(ChainedSearch, TriesOneDesignWhereItWasStoppedBeforeItBegan) {
   TestProblem problem = choices();
   std::stop_source source;
   source.request_stop();
   const SearchResult result = search(problem, {.evaluation = {.stop = source.get_token()}});
   EXPECT_EQ(result.termination, Termination::stop_requested);
-  EXPECT_EQ(problem.calls, 0);
-  EXPECT_FALSE(result.best);
-  EXPECT_THAT(result.stages, testing::IsEmpty());
+  EXPECT_EQ(problem.calls, 1);
+  EXPECT_TRUE(result.best);
+  EXPECT_EQ(sum_of_stages(result), 1);
+}
+
+/// One variable of many choices, of which there are too many to compare all in one go, and a
+/// continuous one that is rounded to few designs.
+TestProblem many_choices(int count) {
+  TestProblem problem(
+      "many choices",
+      {{.name = "x"}, {.name = "choice", .upper = count - 1.0, .kind = VariableKind::categorical}},
+      [](int, const Eigen::VectorXd& x) {
+        return std::abs(std::round(4.0 * x[0]) - 3.0) + std::abs(x[1] - 17.0);
+      },
+      0.0);
+  problem.key_of = [](const SearchPoint& point) {
+    return fmt::format("{} {}", std::round(4.0 * point.x[0]), point.x[1]);
+  };
+  return problem;
+}
+
+TEST(ChainedSearch, EndsWhereNothingIsLeftToTry) {
+  for (const char* optimizer : {"auto", "direct_l+sbplx", "dlib+nelder_mead", "sbplx"}) {
+    SCOPED_TRACE(optimizer);
+    TestProblem problem = many_choices(60);
+    const SearchResult result =
+        search(problem, {.optimizer = optimizer, .evaluation = {.budget = 400}});
+    EXPECT_EQ(result.termination, Termination::converged);
+    EXPECT_LE(result.evaluations, 5 * 60);
+    EXPECT_LE(result.best->cost, 1.0);
+  }
+}
+
+TEST(ChainedSearch, EndsWhereNothingIsLeftButFailures) {
+  TestProblem problem = many_choices(200);
+  problem.function = [](int, const Eigen::VectorXd& x) {
+    if (x[1] > 20.0) throw std::runtime_error("no such design");
+    return std::abs(std::round(4.0 * x[0]) - 3.0) + std::abs(x[1] - 17.0);
+  };
+  try {
+    const SearchResult result = search(
+        problem,
+        {.optimizer = "sbplx", .starts = {{0, problem.start()}}, .evaluation = {.budget = 5000}});
+    EXPECT_EQ(result.termination, Termination::converged);
+  } catch (const SearchFailed& failed) {
+    EXPECT_THAT(failed.what(), HasSubstr("no such design"));
+  }
+}
+
+TEST(ChainedSearch, SearchesGloballyThoughThereAreMoreChoicesThanEvaluations) {
+  TestProblem problem = many_choices(720);
+  const SearchResult result = search(problem, {.evaluation = {.budget = 150}});
+  EXPECT_THAT(result.stages, testing::Contains(Field(&SearchStage::name, "dlib")));
 }
 
 TEST(ChainedSearch, EndsWithACompleteResultAtTheTimeLimit) {

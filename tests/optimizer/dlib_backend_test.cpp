@@ -83,19 +83,6 @@ TEST(DlibBackend, TakesTheSamePathWithTheSameSeedInAnyThread) {
   }
 }
 
-TEST(DlibBackend, IsResumedByAHigherLimit) {
-  for (TestProblem problem : {failing_sensors(), limited()}) {
-    SCOPED_TRACE(problem.name);
-    std::vector<std::string> keys;
-    Evaluator evaluator(problem,
-                        {.observer = [&](const auto& record) { keys.push_back(record.key); }});
-    for (const int limit : {5, 18, 30, 7}) {
-      minimize_with_dlib(evaluator, {{0, problem.start()}}, {.max_evaluations = limit});
-    }
-    EXPECT_EQ(keys, run(problem, {.max_evaluations = 60}, {{0, problem.start()}}).keys());
-  }
-}
-
 TEST(DlibBackend, BeginsWithTheStartsAndThenTriesEverySubSpace) {
   const TestProblem problem = sensors();
   const SearchPoint start{0, problem.start()};
