@@ -16,11 +16,11 @@ double distinguishable(std::size_t screens) {
 
 }  // namespace
 
-Improvement improvement(const TriedDesign& candidate, const TriedDesign& reference) {
-  assert(candidate.costs.size() == reference.costs.size());
+Improvement improvement(std::span<const double> candidate, std::span<const double> reference) {
+  assert(candidate.size() == reference.size());
   std::vector<double> differences;
-  for (std::size_t screen = 0; screen < candidate.costs.size(); ++screen) {
-    differences.push_back(reference.costs[screen] - candidate.costs[screen]);
+  for (std::size_t screen = 0; screen < candidate.size(); ++screen) {
+    differences.push_back(reference[screen] - candidate[screen]);
   }
   const MeanAndError cost = mean_and_standard_error(differences);
   if (differences.size() < 2 ||
@@ -28,6 +28,10 @@ Improvement improvement(const TriedDesign& candidate, const TriedDesign& referen
     return {cost, Verdict::indistinguishable};
   }
   return {cost, cost.mean > 0.0 ? Verdict::better : Verdict::worse};
+}
+
+Improvement improvement(const TriedDesign& candidate, const TriedDesign& reference) {
+  return improvement(candidate.costs, reference.costs);
 }
 
 }  // namespace nlcwfs

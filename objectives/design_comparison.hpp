@@ -3,6 +3,8 @@
 #include "model/statistics.hpp"
 #include "objectives/design_trial.hpp"
 
+#include <span>
+
 namespace nlcwfs {
 
 /// What a comparison of two designs says.
@@ -14,7 +16,10 @@ struct Improvement {
   Verdict verdict;    ///< by Student's t test at 5 %, two-sided
 };
 
-/// Compares two designs that were tried on the same screens.
+/// Compares figures, of which lower is better, of two designs on the same screens.
+Improvement improvement(std::span<const double> candidate, std::span<const double> reference);
+
+/// Compares the costs of two designs that were tried on the same screens.
 Improvement improvement(const TriedDesign& candidate, const TriedDesign& reference);
 
 }  // namespace nlcwfs

@@ -16,7 +16,8 @@ Assessment DesignProblem::assess(const SearchPoint& point, const GoesOn& goes_on
   TriedDesign tried = trial_.run(space_.design(point), goes_on);
   Assessment assessment{.costs = tried.costs, .violation = tried.violation};
   for (const DesignMetric& objective : objectives_) {
-    assessment.objectives.push_back(objective.minimised(trial_.mean_of(tried, objective).mean));
+    assessment.objectives.push_back(
+        objective.minimised(mean_and_standard_error(trial_.objective_of(tried, objective)).mean));
   }
   assessment.detail = std::move(tried);
   return assessment;

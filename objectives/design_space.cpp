@@ -39,18 +39,9 @@ std::vector<double> visited(const VisitingOrder& order, const std::vector<double
   return planes;
 }
 
-/// A window that the grid can have, from one that a search asks for.
-double rounded_window(double window, int samples, bool small_factors) {
-  const auto has_small_factors = [](int width) {
-    for (const int prime : {2, 3, 5, 7}) {
-      while (width % prime == 0) width /= prime;
-    }
-    return width == 1;
-  };
-  int width = 2 * static_cast<int>(std::lround(0.5 * window * samples));
-  width = std::max(width, samples);
-  while (small_factors && !has_small_factors(width)) width += 2;
-  return double(width) / samples;
+/// The width in samples, an even number of at least a pupil's, that is nearest to a window.
+int rounded_width(double window, int samples) {
+  return std::max(2 * static_cast<int>(std::lround(0.5 * window * samples)), samples);
 }
 
 std::string text_of(const ValueRange& range) {
@@ -294,7 +285,7 @@ struct DesignSpace::Region {
   std::vector<std::string> distances(Layout layout) const {
     std::vector<std::string> names;
     if (layout == Layout::symmetric) {
-      names.assign(std::begin(pair_names), std::begin(pair_names) + pair_count(planes));
+      names.assign(pair_names.begin(), pair_names.begin() + pair_count(planes));
     } else {
       for (int plane = 1; plane <= planes; ++plane) names.push_back(fmt::format("z{}", plane));
     }
@@ -309,6 +300,18 @@ struct DesignSpace::Region {
     }
   }
 };
+
+double rounded_window(double window, int samples) {
+  const auto has_small_factors = [](int width) {
+    for (const int prime : {2, 3, 5, 7}) {
+      while (width % prime == 0) width /= prime;
+    }
+    return width == 1;
+  };
+  int width = rounded_width(window, samples);
+  while (!has_small_factors(width)) width += 2;
+  return double(width) / samples;
+}
 
 DesignSpace::DesignSpace(const Telescope& telescope, DesignSpaceOptions options)
     : telescope_(telescope), options_(std::move(options)) {
@@ -436,13 +439,12 @@ SensorDesign DesignSpace::design(const SearchPoint& point) const {
     if (const DesignProperty* property = find_property(name)) property->set(design, value);
   }
   if (varies("detector_window")) {
-    design.detector.window =
-        rounded_window(design.detector.window, design.detector.pupil_pixels, false);
+    const int width = rounded_width(design.detector.window, design.detector.pupil_pixels);
+    design.detector.window = double(width) / design.detector.pupil_pixels;
   }
   if (varies("reconstruction_window")) {
-    design.reconstruction.window =
-        rounded_window(std::max(design.reconstruction.window, design.detector.window),
-                       design.pupil_samples(), true);
+    design.reconstruction.window = rounded_window(
+        std::max(design.reconstruction.window, design.detector.window), design.pupil_samples());
   }
   return design;
 }

@@ -4,6 +4,7 @@
 #include "model/telescope.hpp"
 #include "optimizer/problem.hpp"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -50,7 +51,7 @@ enum class Layout {
 };
 
 /// The distances of a symmetric layout's pairs, in the order in which planes are numbered.
-inline constexpr std::string_view pair_names[] = {"z_near", "z_far", "z_third"};
+inline constexpr std::array<std::string_view, 3> pair_names{"z_near", "z_far", "z_third"};
 
 /// A visiting order of a symmetric layout: plane numbers, where 1 = -Znear, 2 = +Znear, 3 = -Zfar,
 /// 4 = +Zfar (Letchev et al. 2022 call them P1 to P4), 5 = -Zthird, 6 = +Zthird.
@@ -106,6 +107,9 @@ class DesignSpace {
   DesignSpace(const Telescope& telescope, DesignSpaceOptions options);
   ~DesignSpace();
   DesignSpace(DesignSpace&&) noexcept;
+  DesignSpace(const DesignSpace&) = delete;
+  DesignSpace& operator=(const DesignSpace&) = delete;
+  DesignSpace& operator=(DesignSpace&&) = delete;
 
   /// A sub-space may have no variable: all of its design is fixed.
   std::vector<SubSpace> sub_spaces() const;
@@ -139,6 +143,11 @@ class DesignSpace {
   DesignSpaceOptions options_;
   std::vector<Region> regions_;  ///< one per sub-space
 };
+
+/// A window that a reconstruction's grid can have, in pupil diameters: `window` rounded to an even
+/// number of samples with small prime factors.
+/// @param samples  across the pupil
+double rounded_window(double window, int samples);
 
 /// What identifies a sensor among those of equal fixed properties: its planes in visiting order and
 /// the values of all design_properties(), to 7 digits.

@@ -59,7 +59,8 @@ void DesignTrial::set_costs(TriedDesign& tried) const {
   tried.costs = cost_.aggregate.per_screen(costs);
 }
 
-MeanAndError DesignTrial::mean_of(const TriedDesign& tried, const DesignMetric& metric) const {
+std::vector<std::vector<double>> DesignTrial::values_of(const TriedDesign& tried,
+                                                        const DesignMetric& metric) const {
   std::vector<std::vector<double>> values;
   for (std::size_t k = 0; k < conditions_.size(); ++k) {
     const Condition& condition = conditions_[k];
@@ -68,7 +69,21 @@ MeanAndError DesignTrial::mean_of(const TriedDesign& tried, const DesignMetric& 
     values.push_back(tried.performances[k].samples_of(
         [&](const ScreenPerformance& screen) { return metric.value(screen, context); }));
   }
-  return mean_and_standard_error(CostAggregate{}.per_screen(values));
+  return values;
+}
+
+MeanAndError DesignTrial::mean_of(const TriedDesign& tried, const DesignMetric& metric) const {
+  return mean_and_standard_error(CostAggregate{}.per_screen(values_of(tried, metric)));
+}
+
+std::vector<double> DesignTrial::objective_of(const TriedDesign& tried,
+                                              const DesignMetric& metric) const {
+  const auto minimised = [&](double& value) { value = metric.minimised(value); };
+  std::vector<std::vector<double>> values = values_of(tried, metric);
+  for (std::vector<double>& of_condition : values) std::ranges::for_each(of_condition, minimised);
+  std::vector<double> objective = cost_.aggregate.per_screen(values);
+  std::ranges::for_each(objective, minimised);
+  return objective;
 }
 
 SensorDesign DesignTrial::checked(SensorDesign design) const {

@@ -55,6 +55,11 @@ class DesignTrial {
   /// standard error of that over the screens, which the conditions have in common.
   MeanAndError mean_of(const TriedDesign& tried, const DesignMetric& metric) const;
 
+  /// A metric of a design that was tried here as an objective: a value of each screen, aggregated
+  /// over the conditions as costs are, with the highest values as the worst ones or, where higher
+  /// is better, the lowest. Their mean is the objective.
+  std::vector<double> objective_of(const TriedDesign& tried, const DesignMetric& metric) const;
+
   /// See simulated_design.
   /// @throws InputError where a condition's simulation cannot have the design
   SensorDesign checked(SensorDesign design) const;
@@ -64,6 +69,9 @@ class DesignTrial {
   const DesignCost& cost() const { return cost_; }
 
  private:
+  /// Of each condition, of each of its screens.
+  std::vector<std::vector<double>> values_of(const TriedDesign& tried,
+                                             const DesignMetric& metric) const;
   /// From the performances.
   void set_costs(TriedDesign& tried) const;
 

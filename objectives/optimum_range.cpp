@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace nlcwfs {
 namespace {
@@ -16,9 +17,12 @@ class Scan {
   Scan(const DesignSpace& space, const DesignTrial& trial, const SearchPoint& best)
       : space_(space), trial_(trial), best_(best), reference_(trial.run(space.design(best))) {}
 
-  bool is_worse(std::size_t variable, double x) const {
+  int designs() const { return designs_; }
+
+  bool is_worse(std::size_t variable, double x) {
     SearchPoint point = best_;
     point.x[Eigen::Index(variable)] = x;
+    ++designs_;
     try {
       const TriedDesign tried = trial_.run(space_.design(point));
       return tried.violation > reference_.violation ||
@@ -29,7 +33,7 @@ class Scan {
   }
 
   /// The farthest value on one side that is as good.
-  double end(std::size_t variable, double bound) const {
+  double end(std::size_t variable, double bound) {
     const double centre = best_.x[Eigen::Index(variable)];
     const Variable& limits =
         space_.sub_spaces()[static_cast<std::size_t>(best_.sub_space)].variables[variable];
@@ -53,14 +57,15 @@ class Scan {
   const DesignTrial& trial_;
   const SearchPoint& best_;
   TriedDesign reference_;
+  int designs_ = 1;
 };
 
 }  // namespace
 
-std::vector<OptimumRange> optimum_ranges(const DesignSpace& space, const DesignTrial& trial,
-                                         const SearchPoint& best,
-                                         const std::function<bool()>& stop) {
-  const Scan scan(space, trial, best);
+OptimumScan optimum_ranges(const DesignSpace& space, const DesignTrial& trial,
+                           const SearchPoint& best, const std::function<bool()>& stop) {
+  if (stop()) return {};
+  Scan scan(space, trial, best);
   const std::vector<Variable> variables =
       space.sub_spaces()[static_cast<std::size_t>(best.sub_space)].variables;
   std::vector<OptimumRange> ranges;
@@ -68,16 +73,14 @@ std::vector<OptimumRange> optimum_ranges(const DesignSpace& space, const DesignT
     if (!variables[i].is_continuous()) continue;
     const double lower = scan.end(i, variables[i].lower);
     const double upper = scan.end(i, variables[i].upper);
-    const double ends[] = {space.value(best.sub_space, i, lower),
-                           space.value(best.sub_space, i, upper)};
     ranges.push_back({.name = space.name(best.sub_space, i),
                       .best = space.value(best.sub_space, i, best.x[Eigen::Index(i)]),
-                      .least = ends[0],
-                      .greatest = ends[1],
+                      .least = space.value(best.sub_space, i, lower),
+                      .greatest = space.value(best.sub_space, i, upper),
                       .least_is_bound = lower == variables[i].lower,
                       .greatest_is_bound = upper == variables[i].upper});
   }
-  return ranges;
+  return {std::move(ranges), scan.designs()};
 }
 
 }  // namespace nlcwfs

@@ -19,13 +19,18 @@ struct OptimumRange {
   bool greatest_is_bound;
 };
 
+/// What a scan found, and what it took.
+struct OptimumScan {
+  std::vector<OptimumRange> ranges;
+  int designs = 0;  ///< that were tried
+};
+
 /// Scans each continuous variable of a design on both sides, the others held, until the costs on
 /// the trial's screens are worse by Student's t test at 5 %, paired by screen. The scan steps out
 /// by doubled steps from a hundredth of the variable's range, and then halves the last step twice,
 /// so the ends are exact to a quarter of the distance from the best.
 /// @param stop  ends it after the variable that is being scanned
-std::vector<OptimumRange> optimum_ranges(const DesignSpace& space, const DesignTrial& trial,
-                                         const SearchPoint& best,
-                                         const std::function<bool()>& stop);
+OptimumScan optimum_ranges(const DesignSpace& space, const DesignTrial& trial,
+                           const SearchPoint& best, const std::function<bool()>& stop);
 
 }  // namespace nlcwfs

@@ -67,7 +67,8 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
                                    made_by));
     }
     run.best = design_from_json(run.summary.at("best"));
-    run.designs = run.summary.at("evaluations");
+    run.designs =
+        run.summary.at("evaluations").get<int>() + run.summary.value("cheap_evaluations", 0);
     run.reconstructions = run.summary.at("search_reconstructions");
     run.seconds = run.summary.at("search_seconds");
   } catch (const InputError&) {

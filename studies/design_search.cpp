@@ -103,24 +103,6 @@ void require_verifiable_designs(const Configuration& configuration, const Design
   }
 }
 
-TriedDesign verified_design(const SensorDesign& design, const std::string& name,
-                            const DesignTrial& verification, Archive& archive, bool quiet) {
-  ProgressLine progress(quiet);
-  progress.show(
-      fmt::format("verification: {} on {} fresh screens", name, verification.screen_count()));
-  const auto start = Clock::now();
-  TriedDesign tried = verification.run(design);
-  const Condition& first = verification.conditions().front();
-  archive.add(
-      {.stage = "verify",
-       .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
-       .cost = mean_and_standard_error(tried.costs).mean,
-       .failure = "",
-       .seconds = seconds_since(start),
-       .performance = to_json(pooled(tried.performances)).dump()});
-  return tried;
-}
-
 DesignSearch::DesignSearch(const Configuration& configuration)
     : telescope(telescope_of(configuration)),
       seeing(seeing_of(configuration, telescope)),
@@ -132,8 +114,8 @@ DesignSearch::DesignSearch(const Configuration& configuration)
       options(search_options_of(configuration, space.sub_spaces())),
       trial(trial_of(configuration, "search.precision", notes, space.varies("pupil_pixels"))),
       verification(verification_trial_of(configuration, space.varies("pupil_pixels"))),
+      scan(fresh_trial_of(configuration, "search.precision", space.varies("pupil_pixels"))),
       baseline(trial.checked(baseline_of(configuration))),
-      scan_trial_(fresh_trial_of(configuration, "search.precision", space.varies("pupil_pixels"))),
       candidates_(configuration.integer("verify.candidates")) {
   require_valid_designs(space, trial);
   require_verifiable_designs(configuration, space, verification, {baseline});
@@ -148,13 +130,21 @@ DesignSearch::DesignSearch(const Configuration& configuration)
   SensorDesign cheap = simulated_design(
       design_of(configuration), telescope,
       simulation_options_of(configuration, "search.precision").truth, truth_samples(configuration));
-  cheap.reconstruction.window =
+  cheap.reconstruction.window = rounded_window(
       std::max(configuration.number("search.cheap_window") * cheap.reconstruction.window,
-               cheap.detector.window);
+               cheap.detector.window),
+      cheap.pupil_samples());
   SearchOptions cheap_options = options;
   cheap_options.evaluation.budget = configuration.integer("search.cheap_budget");
+  cheap_options.evaluation.target.reset();  // it is one of the search proper
   cheap_.emplace(CheapStage{cheap_trial_of(configuration, space.varies("pupil_pixels")),
                             search_space_of(configuration, telescope, cheap), cheap_options});
+  try {
+    require_valid_designs(cheap_->space, cheap_->trial);
+  } catch (const InputError& error) {
+    throw InputError("search.cheap_window", configuration.number("search.cheap_window"),
+                     fmt::format("does not suit the design: {}", error.what()));
+  }
 }
 
 DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
@@ -166,13 +156,16 @@ DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
     const SearchResult cheap = search_stage("cheap search", cheap_->space, cheap_->trial,
                                             cheap_->options, archive, quiet, result);
     result.cheap_evaluations = cheap.evaluations;
-    // Not the costs: they are of another simulation.
-    for (const EvaluatedDesign& leader : cheap.best_designs) {
-      starts.push_back(leader.point);
-    }
+    // Not the costs: they are of another simulation. First, as an interrupted search tries one.
+    std::vector<SearchPoint> leaders;
+    for (const EvaluatedDesign& leader : cheap.best_designs) leaders.push_back(leader.point);
+    starts.insert(starts.begin(), leaders.begin(), leaders.end());
   }
   SearchOptions from_starts = options;
   from_starts.starts = starts;
+  if (std::optional<double>& limit = from_starts.evaluation.time_limit) {
+    limit = std::max(0.0, *limit - seconds_since(start));
+  }
   result.search = search_stage("search", space, trial, from_starts, archive, quiet, result);
   result.search_seconds = seconds_since(start);
   result.reconstructions = result.search_reconstructions;
@@ -184,29 +177,22 @@ DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
   };
   const auto& leaders = result.search.best_designs;
   const std::size_t count = std::min(leaders.size(), static_cast<std::size_t>(candidates_));
+  std::vector<TriedDesign> verified;
   for (std::size_t i = 0; i < count; ++i) {
-    result.ranking.push_back(
-        {leaders[i].point,
-         verify(space.design(leaders[i].point), fmt::format("design {} of {}", i + 1, count)),
-         {}});
+    verified.push_back(
+        verify(space.design(leaders[i].point), fmt::format("design {} of {}", i + 1, count)));
   }
-  std::ranges::stable_sort(result.ranking, [](const RankedDesign& a, const RankedDesign& b) {
-    if (a.verified.violation != b.verified.violation) {
-      return a.verified.violation < b.verified.violation;
-    }
-    return mean_and_standard_error(a.verified.costs).mean <
-           mean_and_standard_error(b.verified.costs).mean;
-  });
-  for (RankedDesign& ranked : result.ranking) {
-    ranked.against_best = improvement(ranked.verified, result.best());
-  }
+  result.ranking = ranked(std::move(verified));
   result.baseline = verify(baseline, "the baseline");
   result.gain = improvement(result.best(), result.baseline);
 
   ProgressLine progress(quiet);
   progress.show("how far each variable may move");
-  result.ranges = optimum_ranges(space, scan_trial_, result.ranking.front().point,
-                                 [] { return InterruptWatch::interrupted(); });
+  OptimumScan scanned = optimum_ranges(space, scan, leaders[result.ranking.front().candidate].point,
+                                       [] { return InterruptWatch::interrupted(); });
+  result.ranges = std::move(scanned.ranges);
+  result.reconstructions +=
+      static_cast<long>(scan.conditions().size()) * scan.screen_count() * scanned.designs;
   return result;
 }
 
@@ -227,6 +213,10 @@ SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpa
   SearchResult found = search(problem, stage_options);
   result.search_reconstructions += log.reconstructions();
   result.given_up += log.given_up();
+  const long screens =
+      static_cast<long>(stage_trial.conditions().size()) * stage_trial.screen_count();
+  result.saved_reconstructions +=
+      screens * (found.evaluations - found.failures) - log.reconstructions();
   result.table = log.table();
   return found;
 }

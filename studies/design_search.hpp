@@ -9,6 +9,7 @@
 #include "optimizer/chained_search.hpp"
 #include "results/archive.hpp"
 #include "studies/configuration.hpp"
+#include "studies/verified_ranking.hpp"
 
 #include <optional>
 #include <string>
@@ -30,20 +31,6 @@ void require_verifiable_designs(const Configuration& configuration, const Design
                                 const DesignTrial& verification,
                                 const std::vector<SensorDesign>& others = {});
 
-/// A design on fresh screens, archived.
-/// @param name  for the progress line
-TriedDesign verified_design(const SensorDesign& design, const std::string& name,
-                            const DesignTrial& verification, Archive& archive, bool quiet);
-
-/// A design of a search on fresh screens, held against the best one.
-struct RankedDesign {
-  SearchPoint point;
-  TriedDesign verified;
-  /// The best design's cost minus this one's, paired by screen; better or worse than the best where
-  /// it can be told apart.
-  Improvement against_best;
-};
-
 /// What a search found, and what it took.
 struct DesignSearchResult {
   SearchResult search;
@@ -51,10 +38,12 @@ struct DesignSearchResult {
   std::vector<RankedDesign> ranking;
   TriedDesign baseline;  ///< on the same screens
   Improvement gain;      ///< of the best over the baseline
+  /// Nothing where the search was interrupted.
   std::vector<OptimumRange> ranges;
   int cheap_evaluations = 0;        ///< designs of the cheap stage
   int given_up = 0;                 ///< designs that races gave up
   long search_reconstructions = 0;  ///< of both stages
+  long saved_reconstructions = 0;   ///< that races left out
   long reconstructions = 0;         ///< verification and ranges included
   double search_seconds = 0.0;
   std::string table;  ///< CSV of the designs of the search
@@ -79,6 +68,7 @@ class DesignSearch {
   std::vector<std::string> notes;  ///< for the user
   const DesignTrial trial;         ///< of the search
   const DesignTrial verification;
+  const DesignTrial scan;  ///< for the ranges
   const SensorDesign baseline;
 
  private:
@@ -93,7 +83,6 @@ class DesignSearch {
                             Archive& archive, bool quiet, DesignSearchResult& result) const;
 
   std::optional<CheapStage> cheap_;
-  DesignTrial scan_trial_;  ///< for the ranges: fresh screens, as many as the search's
   int candidates_;
 };
 

@@ -102,8 +102,8 @@ double GridPictureAxis::place_of(const SensorDesign& design,
   if (pairs == namings.end()) pairs = namings.begin();
   const bool is_symmetric = !namings.empty();
   const auto* const pair = std::ranges::find(pair_names, name);
-  if (pair != std::end(pair_names)) {
-    const auto index = static_cast<std::size_t>(pair - std::begin(pair_names));
+  if (pair != pair_names.end()) {
+    const auto index = static_cast<std::size_t>(pair - pair_names.begin());
     return is_symmetric && index < pairs->pairs.size() ? pairs->pairs[index] / unit : nan;
   }
   if (name == "order") {

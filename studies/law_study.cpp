@@ -21,6 +21,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// That a law is fitted to.
+constexpr std::size_t least_seeings = 4;
+
 /// A law has one visiting order: the user's, or far pair first, which searches of all orders end
 /// in.
 std::array<int, 4> order_of(const Configuration& configuration) {
@@ -49,16 +52,12 @@ MeanAndError with_range(double value, const OptimumRange& range) {
   return with_error_floor({value, value * std::min(relative, largest_relative_error)});
 }
 
+/// @pre the search was not interrupted
 ScalingDatum datum_of(const DesignSearch& task, const DesignSearchResult& result) {
   const Telescope& telescope = task.telescope;
   const double fried_parameter = task.seeing.fried_parameter;
   const auto range_of = [&](std::string_view name) {
-    const auto found = std::ranges::find(result.ranges, name, &OptimumRange::name);
-    if (found == result.ranges.end()) {
-      throw std::runtime_error(fmt::format("the search of D/r0 = {:g} was interrupted",
-                                           telescope.diameter / fried_parameter));
-    }
-    return *found;
+    return *std::ranges::find(result.ranges, name, &OptimumRange::name);
   };
   OptimumRange near = range_of("z_near");
   OptimumRange far = range_of("z_far");
@@ -124,9 +123,10 @@ void run_law(const CommandLine& command_line) {
   const std::array<int, 4> order = order_of(configuration);
   require_one_condition(configuration);
   const std::vector<double> ratios = configuration.numbers("law.d_over_r0");
-  if (ratios.size() < 4) {
-    throw InputError("law.d_over_r0", configuration.value_text("law.d_over_r0"),
-                     "at least 4 values, to which the lines are fitted");
+  if (ratios.size() < least_seeings) {
+    throw InputError(
+        "law.d_over_r0", configuration.value_text("law.d_over_r0"),
+        fmt::format("at least {} values, to which the lines are fitted", least_seeings));
   }
   // The one that shows what is wrong with the input, before anything is written.
   const DesignSearch first(at_seeing(configuration, order, ratios.front()));
@@ -134,17 +134,33 @@ void run_law(const CommandLine& command_line) {
 
   std::vector<ScalingDatum> data;
   Json searches = Json::array();
+  bool is_interrupted = false;
   for (const double ratio : ratios) {
     fmt::print("{}\n", fmt::format("D/r0 = {:g}:", ratio));
     const DesignSearch task(at_seeing(configuration, order, ratio));
     const DesignSearchResult result = task.run(record.archive(), command_line.quiet);
+    if (result.ranges.size() < 2) {
+      is_interrupted = true;
+      break;
+    }
     data.push_back(datum_of(task, result));
+    record.folder().write("law.csv", data_csv(data));
     searches.push_back(to_json(result.best(), task.verification));
     fmt::print("  near pair {} Talbot distances, far pair at Fresnel number {}, cost {}\n",
                with_error(data.back().z_near_talbot), with_error(data.back().far_fresnel_number),
                with_error(mean_and_standard_error(result.best().costs)));
   }
-  record.folder().write("law.csv", data_csv(data));
+  if (is_interrupted) {
+    const std::string done =
+        fmt::format("interrupted after {} of {} seeings", data.size(), ratios.size());
+    if (data.size() < least_seeings) {
+      throw std::runtime_error(fmt::format(
+          "{}, and a law needs {}{}", done, least_seeings,
+          data.empty() ? ""
+                       : fmt::format("; {} has them", record.folder().file("law.csv").string())));
+    }
+    fmt::print("note: {}; the law is fitted to these\n", done);
+  }
   const LawFile file{law_conditions(at_seeing(configuration, order, ratios.front())), data,
                      fit_scaling_law(data, order)};
   record.folder().write("law.json", to_json(file).dump(2) + '\n');

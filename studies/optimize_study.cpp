@@ -17,32 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view word_for(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::better:
-      return "better";
-    case Verdict::indistinguishable:
-      return "tied";
-    case Verdict::worse:
-      break;
-  }
-  return "worse";
-}
-
-/// The verified designs, best first, with the difference to the best one.
-Json ranking_array(const DesignSearchResult& result, const DesignSearch& task) {
-  Json ranking = Json::array();
-  for (const RankedDesign& ranked : result.ranking) {
-    Json json = to_json(ranked.verified, task.verification);
-    json["cost_above_best"] = to_json(
-        MeanAndError{-ranked.against_best.cost.mean, ranked.against_best.cost.standard_error});
-    json["verdict"] =
-        &ranked == &result.ranking.front() ? "best" : word_for(ranked.against_best.verdict);
-    ranking.push_back(json);
-  }
-  return ranking;
-}
-
 Json ranges_object(const DesignSearchResult& result) {
   Json ranges = Json::object();
   for (const OptimumRange& range : result.ranges) {
@@ -99,42 +73,24 @@ std::string search_text(const DesignSearch& task, const DesignSearchResult& resu
   text += ".\n";
   if (result.given_up > 0) {
     text += fmt::format(
-        "{} clearly worse ones were given up after their first screens: {} reconstructions.\n",
-        result.given_up, result.search_reconstructions);
+        "{} clearly worse ones were given up after their first screens, which saved {} of {} "
+        "reconstructions.\n",
+        result.given_up, result.saved_reconstructions,
+        result.saved_reconstructions + result.search_reconstructions);
   }
   return text;
 }
 
-/// Whether the best few can be told apart.
-std::string ranking_text(const DesignSearchResult& result) {
-  if (result.ranking.size() < 2) return {};
-  std::string text =
-      fmt::format("The search's best {} designs on the fresh screens:\n", result.ranking.size());
-  for (const RankedDesign& ranked : result.ranking) {
-    const bool is_best = &ranked == &result.ranking.front();
-    std::string planes;
-    for (const double z : ranked.verified.design.planes) {
-      planes += fmt::format("{}{}", planes.empty() ? "" : ", ", format_length(z));
-    }
-    text += fmt::format(
-        "  cost {:>18}  {:<44} {}\n", with_error(mean_and_standard_error(ranked.verified.costs)),
-        planes,
-        is_best ? "the best"
-        : ranked.against_best.verdict == Verdict::indistinguishable
-            ? fmt::format("a tie: {} more", with_error({-ranked.against_best.cost.mean,
-                                                        ranked.against_best.cost.standard_error}))
-            : fmt::format("worse by {}", with_error({-ranked.against_best.cost.mean,
-                                                     ranked.against_best.cost.standard_error})));
-  }
-  return text + '\n';
-}
-
 /// How far the best design's variables may move.
 std::string ranges_text(const DesignSearch& task, const DesignSearchResult& result) {
-  if (result.ranges.empty()) return {};
+  if (result.ranges.empty()) {
+    return result.search.termination == Termination::stop_requested
+               ? "The search was interrupted: how far each variable may move was not tried.\n\n"
+               : "";
+  }
   std::string text =
       fmt::format("Moved alone, each variable is as good on {} fresh screens (Student's t, 5 %):\n",
-                  task.trial.screen_count());
+                  task.scan.screen_count());
   for (const OptimumRange& range : result.ranges) {
     const bool is_length = range.name.starts_with('z') || range.name == "tolerance";
     const auto shown = [&](double value) {
@@ -202,8 +158,8 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
              task.verification.conditions().front().simulation->truth_samples(),
              performance_table({{"best design", &best_performance, best.costs},
                                 {"baseline", &baseline_performance, result.baseline.costs}}));
-  fmt::print("{}\n{}{}", conditions_table(best, task.verification), ranking_text(result),
-             ranges_text(task, result));
+  fmt::print("{}\n{}{}", conditions_table(best, task.verification),
+             ranking_text(result.ranking, "The search"), ranges_text(task, result));
   fmt::print("{}\n{}{}", verdict_text(result.gain, result.baseline), limits_text(best),
              captured_energy_warnings(best.design, best_performance));
 }
@@ -227,7 +183,7 @@ void run_optimize(const CommandLine& command_line) {
        {"baseline", to_json(result.baseline, task.verification)},
        {"improvement",
         {{"cost", result.gain.cost.mean}, {"standard_error", result.gain.cost.standard_error}}},
-       {"ranking", ranking_array(result, task)},
+       {"ranking", to_json(result.ranking, task.verification)},
        {"indistinguishable", ranges_object(result)},
        {"evaluations", result.search.evaluations},
        {"cheap_evaluations", result.cheap_evaluations},
@@ -235,6 +191,7 @@ void run_optimize(const CommandLine& command_line) {
        {"cache_hits", result.search.cache_hits},
        {"failures", result.search.failures},
        {"search_reconstructions", result.search_reconstructions},
+       {"saved_reconstructions", result.saved_reconstructions},
        {"reconstructions", result.reconstructions},
        {"wall_seconds", elapsed.count()},
        {"search_seconds", result.search_seconds},

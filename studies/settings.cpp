@@ -493,6 +493,7 @@ DesignTrial trial_of(const Configuration& configuration, std::string_view precis
 
 DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
                            bool pixels_vary) {
+  constexpr int least_screens = 8;
   const Telescope telescope = telescope_of(configuration);
   SimulationOptions options = simulation_options_of(configuration, precision_key);
   options.noise_seed = configuration.seed("verify.seed");
@@ -500,7 +501,8 @@ DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view 
                         [&](const Seeing& seeing) {
                           return simulated_screens(
                               configuration, telescope, seeing, truth_samples(configuration),
-                              configuration.integer("screens.count"), "verify.seed");
+                              std::max(least_screens, configuration.integer("screens.count")),
+                              "verify.seed");
                         }),
           cost_of(configuration, pixels_vary)};
 }

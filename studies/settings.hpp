@@ -82,7 +82,8 @@ std::vector<PhaseScreen> screens_of(const Configuration& configuration,
 DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
                      std::vector<std::string>& notes, bool pixels_vary = false);
 
-/// The same on as many fresh screens, those of the verification.
+/// The same on as many fresh screens, those of the verification, but on 8 at least: fewer cannot
+/// tell designs apart.
 DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
                            bool pixels_vary = false);
 

@@ -11,6 +11,7 @@
 #include "studies/studies.hpp"
 #include "studies/sweep_grid.hpp"
 #include "studies/trial_summary.hpp"
+#include "studies/verified_ranking.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,7 @@
 #include <new>
 #include <optional>
 #include <ranges>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -53,7 +55,22 @@ struct Task {
   std::vector<std::string> notes;
   DesignTrial trial;
   DesignTrial verification;
+  std::vector<DesignMetric> metrics;  ///< every one that the configuration says enough for
+  std::size_t candidates;             ///< that are verified
 };
+
+std::vector<DesignMetric> metrics_of(const Operation& operation) {
+  std::vector<DesignMetric> metrics;
+  for (const DesignMetric& metric : design_metrics()) {
+    try {
+      metric.validate(operation);
+      metrics.push_back(metric);
+    } catch (const InputError&) {
+      // It needs what is not set.
+    }
+  }
+  return metrics;
+}
 
 /// Whether the grid's designs differ in their pixels across the pupil.
 bool pixels_vary(const Configuration& configuration) {
@@ -70,7 +87,9 @@ Task::Task(const Configuration& configuration)
                            simulation_options_of(configuration, "search.precision").truth,
                            truth_samples(configuration)))),
       trial(trial_of(configuration, "search.precision", notes, pixels_vary(configuration))),
-      verification(verification_trial_of(configuration, pixels_vary(configuration))) {
+      verification(verification_trial_of(configuration, pixels_vary(configuration))),
+      metrics(metrics_of(trial.cost().operation)),
+      candidates(static_cast<std::size_t>(configuration.integer("verify.candidates"))) {
   try {
     verification.checked(design_of(configuration));
   } catch (const InputError& error) {
@@ -87,7 +106,7 @@ struct Outcome {
   MeanAndError cost{};
   double violation = 0.0;
   double elapsed = 0.0;  ///< of the sweep when it was known, s, earlier runs included
-  std::vector<MeanAndError> metrics = {};  ///< in the order of performance_metrics()
+  std::vector<MeanAndError> metrics = {};  ///< in the order of Task::metrics
   std::string failure = {};                ///< why there is none of these
 };
 
@@ -100,14 +119,15 @@ MeanAndError mean_and_error_of(const Json& json) {
   return {number_of(json.at("mean")), number_of(json.at("standard_error"))};
 }
 
-Outcome outcome_of(const ArchivedEvaluation& evaluation) {
+Outcome outcome_of(const ArchivedEvaluation& evaluation, const Task& task) {
   if (!evaluation.failure.empty()) return {.failure = evaluation.failure};
   const Json performance = Json::parse(evaluation.performance);
   Outcome outcome{.cost = mean_and_error_of(performance.at("cost")),
                   .violation = number_of(performance.at("violation")),
                   .elapsed = performance.at("elapsed_seconds")};
-  for (const PerformanceMetric& metric : performance_metrics()) {
-    outcome.metrics.push_back(mean_and_error_of(performance.at(std::string(metric.name))));
+  for (const DesignMetric& metric : task.metrics) {
+    outcome.metrics.push_back(
+        mean_and_error_of(performance.at("metrics").at(std::string(metric.name))));
   }
   return outcome;
 }
@@ -135,6 +155,9 @@ ArchivedEvaluation evaluation_of(const GridDesign& design, const Task& task,
     // With all that the grid's tables have of a design, so that they can be made of the archive.
     Json performance = to_json(pooled(tried.performances));
     performance["cost"] = to_json(cost);
+    for (const DesignMetric& metric : task.metrics) {
+      performance["metrics"][std::string(metric.name)] = to_json(task.trial.mean_of(tried, metric));
+    }
     performance["violation"] = tried.violation;
     performance["elapsed_seconds"] = elapsed_before + seconds_since(sweep_start);
     evaluation.performance = performance.dump();
@@ -197,7 +220,7 @@ Sweep::Sweep(const Task& task, RunRecord& record)
 
 void Sweep::add(std::size_t design, const ArchivedEvaluation& evaluation) {
   done_ += outcomes_[design] ? 0 : 1;
-  outcomes_[design] = outcome_of(evaluation);
+  outcomes_[design] = outcome_of(evaluation, task_);
 }
 
 double Sweep::elapsed() const {
@@ -237,23 +260,26 @@ std::string Sweep::progress_text(std::size_t tried, double elapsed) const {
                      designs_.size(), duration_text(left));
 }
 
-/// The cheapest design that keeps the limits, or comes closest; the first among equals.
+/// The cheapest designs that keep the limits, or come closest, best first; `most` at most.
 /// @throws std::runtime_error where all failed
-std::size_t best_of(const Sweep& sweep) {
-  std::optional<std::size_t> best;
+std::vector<std::size_t> best_of(const Sweep& sweep, std::size_t most) {
+  std::vector<std::size_t> designs;
+  for (std::size_t i = 0; i < sweep.designs().size(); ++i) {
+    if (sweep.outcomes()[i]->failure.empty()) designs.push_back(i);
+  }
+  if (designs.empty()) {
+    throw std::runtime_error(
+        fmt::format("every design of the grid failed; the first: {}",
+                    sweep.outcomes().empty() ? "" : sweep.outcomes().front()->failure));
+  }
   const auto rank = [&](std::size_t design) {
     const Outcome& outcome = *sweep.outcomes()[design];
     return EvaluatedDesign{
         .point = {}, .key = {}, .cost = outcome.cost.mean, .violation = outcome.violation};
   };
-  for (std::size_t i = 0; i < sweep.designs().size(); ++i) {
-    if (!sweep.outcomes()[i]->failure.empty()) continue;
-    if (!best || is_better(rank(i), rank(*best))) best = i;
-  }
-  if (best) return *best;
-  throw std::runtime_error(
-      fmt::format("every design of the grid failed; the first: {}",
-                  sweep.outcomes().empty() ? "" : sweep.outcomes().front()->failure));
+  std::ranges::stable_sort(designs, is_better, rank);
+  designs.resize(std::min(designs.size(), most));
+  return designs;
 }
 
 /// A value of an axis as people write it; lengths and times in SI.
@@ -285,14 +311,15 @@ std::vector<const Outcome*> outcomes_of_points(const Task& task, const Sweep& sw
 }
 
 /// One row per point of the grid.
-std::string points_table(const DesignGrid& grid, const std::vector<const Outcome*>& points) {
+std::string points_table(const Task& task, const std::vector<const Outcome*>& points) {
+  const DesignGrid& grid = task.grid;
   std::vector<std::string> columns;
   for (const GridAxis& axis : grid.axes()) {
     const std::string unit = axis_unit(axis);
     columns.push_back(unit.empty() ? axis.name : fmt::format("{}_{}", axis.name, unit));
   }
   columns.insert(columns.end(), {"cost", "cost_standard_error", "violation"});
-  for (const PerformanceMetric& metric : performance_metrics()) {
+  for (const DesignMetric& metric : task.metrics) {
     columns.emplace_back(metric.name);
     columns.push_back(fmt::format("{}_standard_error", metric.name));
   }
@@ -311,7 +338,7 @@ std::string points_table(const DesignGrid& grid, const std::vector<const Outcome
     }
     const Outcome* outcome = points[point];
     if (outcome == nullptr || !outcome->failure.empty()) {
-      for (std::size_t i = 0; i < 3 + 2 * performance_metrics().size(); ++i) table.add("");
+      for (std::size_t i = 0; i < 3 + 2 * task.metrics.size(); ++i) table.add("");
       table.add(outcome == nullptr ? "the order is one of another number of planes"
                                    : outcome->failure);
       continue;
@@ -346,7 +373,8 @@ Json matrix_of(const DesignGrid& grid, const std::vector<const Outcome*>& points
   return rows.front();
 }
 
-Json grid_object(const DesignGrid& grid, const std::vector<const Outcome*>& points) {
+Json grid_object(const Task& task, const std::vector<const Outcome*>& points) {
+  const DesignGrid& grid = task.grid;
   Json object;
   object["axes"] = Json::array();
   for (const GridAxis& axis : grid.axes()) {
@@ -365,8 +393,8 @@ Json grid_object(const DesignGrid& grid, const std::vector<const Outcome*>& poin
   errors["cost"] =
       matrix_of(grid, points, [](const Outcome& point) { return point.cost.standard_error; });
   object["violation"] = matrix_of(grid, points, [](const Outcome& p) { return p.violation; });
-  for (std::size_t i = 0; i < performance_metrics().size(); ++i) {
-    const std::string name(performance_metrics()[i].name);
+  for (std::size_t i = 0; i < task.metrics.size(); ++i) {
+    const std::string name(task.metrics[i].name);
     object[name] =
         matrix_of(grid, points, [i](const Outcome& point) { return point.metrics[i].mean; });
     errors[name] = matrix_of(grid, points,
@@ -376,24 +404,24 @@ Json grid_object(const DesignGrid& grid, const std::vector<const Outcome*>& poin
   return object;
 }
 
-TriedDesign verified_best(const GridDesign& best, const Task& task, RunRecord& record, bool quiet) {
-  ProgressLine progress(quiet);
-  progress.show(fmt::format("verification: best design on {} fresh screens",
-                            task.verification.screen_count()));
-  const auto start = Clock::now();
-  TriedDesign verified = task.verification.run(best.design);
-  const std::vector<ArchivedEvaluation> archived = record.archive().evaluations();
-  if (std::ranges::count(archived, "verify", &ArchivedEvaluation::stage) == 0) {
-    record.archive().add(
-        {.stage = "verify",
-         .design = to_json(best.design, task.telescope, task.seeing.fried_parameter).dump(),
-         .cost = mean_and_standard_error(verified.costs).mean,
-         .failure = "",
-         .seconds = seconds_since(start),
-         .performance = to_json(pooled(verified.performances)).dump(),
-         .key = best.key});
+/// On fresh screens; what an earlier run has archived is not archived again.
+std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const Sweep& sweep,
+                                     const Task& task, RunRecord& record, bool quiet) {
+  std::set<std::string> archived;
+  for (const ArchivedEvaluation& evaluation : record.archive().evaluations()) {
+    if (evaluation.stage == "verify") archived.insert(evaluation.key);
   }
-  return verified;
+  std::vector<TriedDesign> verified;
+  for (const std::size_t design : best) {
+    const GridDesign& candidate = sweep.designs()[design];
+    verified.push_back(
+        archived.contains(candidate.key)
+            ? task.verification.run(candidate.design)
+            : verified_design(candidate.design,
+                              fmt::format("design {} of {}", verified.size() + 1, best.size()),
+                              task.verification, record.archive(), quiet));
+  }
+  return ranked(std::move(verified));
 }
 
 /// The maps of the figures that people look at first.
@@ -438,16 +466,17 @@ void run_sweep(const CommandLine& command_line) {
   }
 
   const std::vector<const Outcome*> points = outcomes_of_points(task, sweep);
-  record.folder().write("sweep.csv", points_table(task.grid, points));
-  const GridDesign& best_design = sweep.designs()[best_of(sweep)];
+  record.folder().write("sweep.csv", points_table(task, points));
+  const std::vector<RankedDesign> ranking =
+      ranking_of(best_of(sweep, task.candidates), sweep, task, record, command_line.quiet);
+  const TriedDesign& best = ranking.front().verified;
   // The archive has its means alone; the same screens give the same again.
-  const TriedDesign on_search_screens = task.trial.run(best_design.design);
-  const TriedDesign best = verified_best(best_design, task, record, command_line.quiet);
+  const TriedDesign on_search_screens = task.trial.run(best.design);
 
   Configuration best_configuration = configuration;
   set_design(best_configuration, best.design, task.grid.space(), "by the sweep");
   record.folder().write("best.cfg", best_configuration.dump());
-  const Json grid = grid_object(task.grid, points);
+  const Json grid = grid_object(task, points);
   std::vector<std::string> notes = task.notes;
   std::ranges::move(
       write_maps(task, grid, {best.design, mean_and_standard_error(on_search_screens.costs).mean},
@@ -459,15 +488,17 @@ void run_sweep(const CommandLine& command_line) {
   record.write_summary(
       {{"best", to_json(best, task.verification)},
        {"best_on_search_screens", to_json(on_search_screens, task.trial)},
+       {"ranking", to_json(ranking, task.verification)},
        {"grid", grid},
        {"points", task.grid.size()},
        {"evaluations", evaluations},
        {"failures", failures},
        {"search_reconstructions", std::int64_t(evaluations - failures) * task.trial.screen_count() *
                                       static_cast<std::int64_t>(task.trial.conditions().size())},
-       {"reconstructions", (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
-                            task.verification.screen_count()) *
-                               static_cast<std::int64_t>(task.trial.conditions().size())},
+       {"reconstructions",
+        (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
+         static_cast<std::int64_t>(ranking.size()) * task.verification.screen_count()) *
+            static_cast<std::int64_t>(task.trial.conditions().size())},
        {"wall_seconds", seconds_before + seconds_since(start)},
        {"search_seconds", sweep.elapsed()}});
 
@@ -489,8 +520,9 @@ void run_sweep(const CommandLine& command_line) {
       task.verification.conditions().front().simulation->truth_samples(),
       performance_table({{"sweep's screens", &search_performance, on_search_screens.costs},
                          {"fresh screens", &performance, best.costs}}));
-  fmt::print("{}{}\n{}\n", conditions_table(best, task.verification),
-             captured_energy_warnings(best.design, performance), record.closing_line());
+  fmt::print("{}\n{}{}\n{}\n", conditions_table(best, task.verification),
+             ranking_text(ranking, "The sweep"), captured_energy_warnings(best.design, performance),
+             record.closing_line());
 }
 
 }  // namespace nlcwfs

@@ -1,6 +1,7 @@
 #include "studies/trade_search.hpp"
 
 #include "model/input_error.hpp"
+#include "objectives/design_comparison.hpp"
 #include "objectives/design_problem.hpp"
 #include "studies/design_search.hpp"
 #include "studies/interrupt.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stop_token>
 #include <tuple>
@@ -129,6 +131,24 @@ bool stands_before(const TradedDesign& a, const TradedDesign& b) {
   return rank(a) < rank(b);
 }
 
+/// Whether a design is another's equal or better in each objective, and better in one.
+bool is_no_worse(const TradedDesign& design, const TradedDesign& other) {
+  const std::vector<double>& ours = design.evaluated.objectives;
+  const std::vector<double>& theirs = other.evaluated.objectives;
+  return ours != theirs && std::ranges::equal(ours, theirs, std::ranges::less_equal());
+}
+
+/// @pre is_no_worse
+bool is_clearly_better_in_one(const TradedDesign& design, const TradedDesign& other) {
+  for (std::size_t i = 0; i < design.samples.size(); ++i) {
+    // The means say in which direction.
+    if (improvement(design.samples[i], other.samples[i]).verdict != Verdict::indistinguishable) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::size_t TradeResult::standing_count() const {
@@ -162,6 +182,12 @@ TradeSearch::TradeSearch(const Configuration& configuration)
     notes.emplace_back(
         "with simulation.truth = matched all designs share one grid: pupil_pixels and "
         "reconstruction_oversampling do not vary");
+  }
+  if (trial.conditions().size() > 1 && trial.cost().aggregate.kind != AggregateKind::mean) {
+    notes.push_back(
+        fmt::format("objectives are aggregated over the conditions as "
+                    "objective.aggregate = {} says; other figures are means",
+                    configuration.choice("objective.aggregate")));
   }
   if (const auto point = space.point_of(configured)) options.starts.push_back(*point);
 }
@@ -228,7 +254,8 @@ void TradeSearch::verify_front(TradeResult& result, Archive& archive, bool quiet
                         .cost = mean_and_standard_error(traded.verified.costs).mean,
                         .violation = traded.verified.violation};
     for (const DesignMetric& objective : objectives) {
-      traded.objectives.push_back(verification.mean_of(traded.verified, objective));
+      traded.samples.push_back(verification.objective_of(traded.verified, objective));
+      traded.objectives.push_back(mean_and_standard_error(traded.samples.back()));
       traded.evaluated.objectives.push_back(objective.minimised(traded.objectives.back().mean));
     }
     result.front.push_back(std::move(traded));
@@ -239,21 +266,22 @@ void TradeSearch::verify_front(TradeResult& result, Archive& archive, bool quiet
 
 void TradeSearch::judge_front(TradeResult& result) const {
   std::ranges::stable_sort(result.front, stands_before);
-  std::vector<std::vector<double>> figures;
-  std::vector<std::size_t> within_limits;
-  for (std::size_t i = 0; i < result.front.size(); ++i) {
-    if (result.front[i].evaluated.violation > 0.0) continue;
-    within_limits.push_back(i);
-    figures.push_back(result.front[i].evaluated.objectives);
-  }
-  const std::vector<bool> is_dominated = dominated(figures);
   std::vector<std::size_t> standing;
   std::vector<EvaluatedDesign> designs;
-  for (std::size_t i = 0; i < within_limits.size(); ++i) {
-    TradedDesign& traded = result.front[within_limits[i]];
-    traded.dominated = is_dominated[i];
-    if (traded.dominated) continue;
-    standing.push_back(within_limits[i]);
+  for (std::size_t i = 0; i < result.front.size(); ++i) {
+    TradedDesign& traded = result.front[i];
+    if (traded.evaluated.violation > 0.0) continue;
+    for (std::size_t k = 0; k < result.front.size(); ++k) {
+      const TradedDesign& other = result.front[k];
+      if (other.evaluated.violation > 0.0 || !is_no_worse(other, traded)) continue;
+      if (is_clearly_better_in_one(other, traded)) traded.dominated = true;
+      if (!traded.tied_with) traded.tied_with = k;
+    }
+    if (traded.dominated) {
+      traded.tied_with.reset();
+      continue;
+    }
+    standing.push_back(i);
     designs.push_back(traded.evaluated);
   }
   result.bests.resize(objectives.size() - 1);

@@ -21,8 +21,13 @@ namespace nlcwfs {
 struct TradedDesign {
   TriedDesign verified;
   std::vector<MeanAndError> objectives;  ///< there, in the metrics' own units and signs
-  bool dominated = false;                ///< there, by another of the front
-  /// The same, as figures to be minimised.
+  /// Another of the front is no worse there in any objective, and in one of them better by
+  /// Student's t test at 5 %, paired by screen.
+  bool dominated = false;
+  /// The first of those that would dominate it if chance were none.
+  std::optional<std::size_t> tied_with = {};
+  /// The objectives of each screen, and their means as figures to be minimised.
+  std::vector<std::vector<double>> samples;
   EvaluatedDesign evaluated;
 
   /// Whether it is one of the best compromises: not dominated, and within the limits.

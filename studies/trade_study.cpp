@@ -50,6 +50,7 @@ Json front_array(const TradeSearch& task, const TradeResult& result) {
       json["objectives"][std::string(task.objectives[i].name)] = to_json(traded.objectives[i]);
     }
     json["dominated"] = traded.dominated;
+    json["tied_with"] = traded.tied_with ? Json(*traded.tied_with) : Json(nullptr);
     front.push_back(json);
   }
   return front;
@@ -107,8 +108,10 @@ std::string front_table(const TradeSearch& task, const TradeResult& result) {
         .add(traded.evaluated.violation)
         .add(fmt::format("{:.7g}", fmt::join(design.planes, ",")));
     for (const DesignProperty& property : design_properties()) table.add(property.get(design));
-    for (const DesignMetric& metric : metrics) {
-      const MeanAndError value = task.verification.mean_of(traded.verified, metric);
+    for (std::size_t k = 0; k < metrics.size(); ++k) {
+      const MeanAndError value = k < traded.objectives.size()
+                                     ? traded.objectives[k]
+                                     : task.verification.mean_of(traded.verified, metrics[k]);
       table.add(value.mean).add(value.standard_error);
     }
   }
@@ -208,9 +211,10 @@ std::string search_text(const TradeSearch& task, const TradeResult& result,
 /// The objectives that no other column of the front's table tells.
 std::vector<std::size_t> further_objectives(const TradeSearch& task) {
   std::vector<std::size_t> further;
+  const bool is_mean = task.trial.cost().aggregate.kind == AggregateKind::mean;
   for (std::size_t i = 0; i < task.objectives.size(); ++i) {
     const std::string_view name = task.objectives[i].name;
-    const bool is_told = name == "total_wfe_nm" || name == "model_seconds" ||
+    const bool is_told = (is_mean && (name == "total_wfe_nm" || name == "model_seconds")) ||
                          name == "plane_count" ||
                          (name == "detector_pixels" && !task.space.varies("detector_window"));
     if (!is_told) further.push_back(i);
@@ -245,7 +249,8 @@ std::string front_text(const TradeSearch& task, const TradeResult& result) {
     text += fmt::format("   {}{}\n", distances,
                         traded.evaluated.violation > 0.0 ? "  breaks a limit there"
                         : traded.dominated               ? "  bettered there"
-                                                         : "");
+                        : traded.tied_with ? fmt::format("  a tie with {}", *traded.tied_with)
+                                           : "");
   }
   return text;
 }

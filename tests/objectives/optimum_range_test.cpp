@@ -21,7 +21,10 @@ TEST(OptimumRange, HoldsTheBestAndEndsWhereDesignsAreWorse) {
   const DesignTrial trial({tiny_condition(telescope, 4.0, 12)}, {});
   const DesignSpace space = space_of_two_pairs(telescope);
   const SearchPoint best = space.point_of(tiny_design(telescope)).value();
-  const std::vector<OptimumRange> ranges = optimum_ranges(space, trial, best, [] { return false; });
+  const OptimumScan scan = optimum_ranges(space, trial, best, [] { return false; });
+  const std::vector<OptimumRange>& ranges = scan.ranges;
+  // The best itself, and on each side of each variable one step at least.
+  EXPECT_GE(scan.designs, 7);
   ASSERT_EQ(ranges.size(), 3u);
   EXPECT_EQ(ranges[0].name, "z_near");
   EXPECT_EQ(ranges[1].name, "z_far");
@@ -64,7 +67,10 @@ TEST(OptimumRange, EndsWhereItIsTold) {
   const DesignSpace space = space_of_two_pairs(telescope);
   const SearchPoint best = space.point_of(tiny_design(telescope)).value();
   int asked = 0;
-  EXPECT_EQ(optimum_ranges(space, trial, best, [&] { return ++asked > 1; }).size(), 1u);
+  EXPECT_EQ(optimum_ranges(space, trial, best, [&] { return ++asked > 2; }).ranges.size(), 1u);
+  const OptimumScan none = optimum_ranges(space, trial, best, [] { return true; });
+  EXPECT_TRUE(none.ranges.empty());
+  EXPECT_EQ(none.designs, 0);
 }
 
 }  // namespace

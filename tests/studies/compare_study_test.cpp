@@ -34,9 +34,10 @@ class CompareStudy : public Program {
 TEST_F(CompareStudy, LeavesItsFiles) {
   const ProgramRun finished = compared({"--output", "run"});
   ASSERT_EQ(finished.exit_code, 0) << finished.errors;
-  EXPECT_THAT(finished.output, AllOf(StartsWith("0.5 m telescope"),
-                                     HasSubstr("seed 1000004, which neither has seen"),
-                                     HasSubstr("what finding it took"), EndsWith("Results are in run.\n")));
+  EXPECT_THAT(
+      finished.output,
+      AllOf(StartsWith("0.5 m telescope"), HasSubstr("seed 1000004, which neither has seen"),
+            HasSubstr("what finding it took"), EndsWith("Results are in run.\n")));
   EXPECT_THAT(names_in("run"),
               ElementsAre("archive.sqlite", "config.cfg", "path.png", "path.svg", "summary.json"));
   const Json json = summary("run");

@@ -42,6 +42,16 @@ TEST_F(Law, IsFittedToTheBestDesignsAndFollowedByAdvise) {
   EXPECT_THAT(advice.output, HasSubstr("By the law of 4 searches, D/r0 = 2 to 5"));
 }
 
+TEST_F(Law, AnInterruptedOneKeepsWhatIsDone) {
+  const ProgramRun stopped =
+      run({"law", "--config", "tiny.cfg", "--output", "run", "--search.budget", "1000000"},
+          // In the foreground, or timeout signals the process and its group: twice.
+          "timeout --foreground --preserve-status --signal INT 2 ");
+  EXPECT_EQ(stopped.exit_code, 1);
+  EXPECT_EQ(stopped.errors,
+            "nlcwfs: failed: interrupted after 0 of 6 seeings, and a law needs 4\n");
+}
+
 TEST_F(Law, RefusesBadInputInOneLine) {
   const auto refused = [](const Arguments& more) {
     Arguments arguments{"law", "--config", "tiny.cfg", "--output", "run"};

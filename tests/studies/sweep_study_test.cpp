@@ -81,9 +81,9 @@ TEST_F(SweepStudy, LeavesItsFiles) {
   EXPECT_EQ(json.at("points"), 12);
   EXPECT_EQ(json.at("evaluations"), 12);
   EXPECT_EQ(json.at("failures"), 0);
-  // Every design and once more the best on the sweep's 2 screens, the best on 2 fresh ones.
+  // Every design and once more the best on the sweep's 2 screens, the best three on 2 fresh ones.
   EXPECT_EQ(json.at("search_reconstructions"), 12 * 2);
-  EXPECT_EQ(json.at("reconstructions"), 12 * 2 + 2 + 2);
+  EXPECT_EQ(json.at("reconstructions"), 12 * 2 + 2 + 3 * 2);
   EXPECT_GT(json.at("wall_seconds"), json.at("search_seconds"));
   EXPECT_EQ(json.at("grid").at("axes"),
             (Json::array({{{"name", "z_near"}, {"unit", "m"}, {"values", {20e3, 40e3, 60e3}}},
@@ -91,7 +91,42 @@ TEST_F(SweepStudy, LeavesItsFiles) {
                           {{"name", "relaxation"}, {"unit", ""}, {"values", {0.0, 0.3}}}})));
   const Archive archive = Archive::reopened("run/archive.sqlite");
   EXPECT_EQ(std::ranges::count(archive.evaluations(), "sweep", &ArchivedEvaluation::stage), 12);
-  EXPECT_EQ(std::ranges::count(archive.evaluations(), "verify", &ArchivedEvaluation::stage), 1);
+  EXPECT_EQ(std::ranges::count(archive.evaluations(), "verify", &ArchivedEvaluation::stage), 3);
+}
+
+TEST_F(SweepStudy, RanksItsBestDesignsOnFreshScreens) {
+  const ProgramRun finished = done("sweep", "run", grid);
+  EXPECT_THAT(finished.output, HasSubstr("The sweep's best 3 designs on the fresh screens:"));
+  const Json json = summary("run");
+  const Json& ranking = json["ranking"];
+  ASSERT_EQ(ranking.size(), 3u);
+  EXPECT_EQ(ranking[0]["planes_m"], json["best"]["planes_m"]);
+  EXPECT_EQ(ranking[0]["verdict"], "best");
+  // They are the grid's cheapest.
+  std::vector<double> costs;
+  for (const auto& row : table_of("run/sweep.csv")) costs.push_back(std::stod(row.at("cost")));
+  std::ranges::sort(costs);
+  EXPECT_LE(json["best_on_search_screens"]["cost"]["mean"], costs[2] * (1.0 + 1e-9));
+  for (std::size_t i = 1; i < 3; ++i) {
+    EXPECT_GE(ranking[i]["cost"]["mean"], ranking[i - 1]["cost"]["mean"]);
+    EXPECT_NEAR(ranking[i]["cost_above_best"]["mean"],
+                double(ranking[i]["cost"]["mean"]) - double(ranking[0]["cost"]["mean"]), 1e-9);
+  }
+}
+
+TEST_F(SweepStudy, SavesEveryMetricThatTheConfigurationSaysEnoughFor) {
+  done("sweep", "still", {"--sweep.pupil_pixels", "8,16"});
+  const Json still = summary("still")["grid"];
+  for (const char* metric :
+       {"model_seconds", "detector_pixels", "plane_count", "captured_energy", "latency_seconds"}) {
+    ASSERT_TRUE(still.contains(metric)) << metric;
+    EXPECT_TRUE(still["standard_error"].contains(metric));
+  }
+  EXPECT_EQ(still["detector_pixels"][0], (Json{4 * 16 * 16, 4 * 32 * 32}));
+  EXPECT_LE(still["captured_energy"][0][0], 1.0);
+  EXPECT_FALSE(still.contains("servo_wfe_nm")) << "there is no wind";
+  done("sweep", "windy", {"--objective.wind_speed", "10"});
+  EXPECT_TRUE(summary("windy")["grid"].contains("servo_wfe_nm"));
 }
 
 TEST_F(SweepStudy, ItsMatricesAndItsTableAgree) {
@@ -240,8 +275,8 @@ TEST_F(SweepStudy, GoesOnAfterBeingKilledAsIfItHadNot) {
   for (const char* file : {"config.cfg", "best.cfg"}) {
     EXPECT_EQ(contents(std::string("run/") + file), contents(std::string("whole/") + file)) << file;
   }
-  EXPECT_EQ(Archive::reopened("run/archive.sqlite").evaluations().size(), 49u + 1u)
-      << "each design once, and the verification";
+  EXPECT_EQ(Archive::reopened("run/archive.sqlite").evaluations().size(), 49u + 3u)
+      << "each design once, and the verifications";
 
   const ProgramRun again = run({"sweep", "--resume", "run"});
   EXPECT_EQ(again.exit_code, 0);

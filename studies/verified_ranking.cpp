@@ -1,0 +1,112 @@
+#include "studies/verified_ranking.hpp"
+
+#include "objectives/design_space.hpp"
+#include "results/design_summary.hpp"
+#include "studies/design_text.hpp"
+#include "studies/progress_line.hpp"
+#include "studies/trial_summary.hpp"
+#include "studies/units.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string_view word_for(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::better:
+      return "better";
+    case Verdict::indistinguishable:
+      return "tied";
+    case Verdict::worse:
+      break;
+  }
+  return "worse";
+}
+
+/// By how much it costs more than the best.
+MeanAndError cost_above_best(const RankedDesign& ranked) {
+  const MeanAndError& gain = ranked.against_best.cost;
+  return {-gain.mean, gain.standard_error};
+}
+
+}  // namespace
+
+TriedDesign verified_design(const SensorDesign& design, const std::string& name,
+                            const DesignTrial& verification, Archive& archive, bool quiet) {
+  ProgressLine progress(quiet);
+  progress.show(
+      fmt::format("verification: {} on {} fresh screens", name, verification.screen_count()));
+  const auto start = Clock::now();
+  TriedDesign tried = verification.run(design);
+  const Condition& first = verification.conditions().front();
+  archive.add(
+      {.stage = "verify",
+       .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
+       .cost = mean_and_standard_error(tried.costs).mean,
+       .failure = "",
+       .seconds = seconds_since(start),
+       .performance = to_json(pooled(tried.performances)).dump(),
+       .key = design_key(design)});
+  return tried;
+}
+
+std::vector<RankedDesign> ranked(std::vector<TriedDesign> verified) {
+  std::vector<RankedDesign> ranking;
+  for (TriedDesign& tried : verified) {
+    ranking.push_back(
+        {.candidate = ranking.size(), .verified = std::move(tried), .against_best = {}});
+  }
+  std::ranges::stable_sort(ranking, {}, [](const RankedDesign& design) {
+    return std::pair(design.verified.violation,
+                     mean_and_standard_error(design.verified.costs).mean);
+  });
+  for (RankedDesign& design : ranking) {
+    design.against_best = improvement(design.verified, ranking.front().verified);
+  }
+  return ranking;
+}
+
+nlohmann::ordered_json to_json(const std::vector<RankedDesign>& ranking,
+                               const DesignTrial& verification) {
+  nlohmann::ordered_json array = nlohmann::ordered_json::array();
+  for (const RankedDesign& design : ranking) {
+    nlohmann::ordered_json json = to_json(design.verified, verification);
+    json["cost_above_best"] = to_json(cost_above_best(design));
+    json["verdict"] = array.empty() ? "best" : word_for(design.against_best.verdict);
+    array.push_back(std::move(json));
+  }
+  return array;
+}
+
+std::string ranking_text(const std::vector<RankedDesign>& ranking, std::string_view of) {
+  if (ranking.size() < 2) return {};
+  std::string text =
+      fmt::format("{}'s best {} designs on the fresh screens:\n", of, ranking.size());
+  for (const RankedDesign& design : ranking) {
+    std::string planes;
+    for (const double z : design.verified.design.planes) {
+      planes += fmt::format("{}{}", planes.empty() ? "" : ", ", format_length(z));
+    }
+    const std::string above = with_error(cost_above_best(design));
+    text += fmt::format("  cost {:>18}  {:<44} {}\n",
+                        with_error(mean_and_standard_error(design.verified.costs)), planes,
+                        &design == &ranking.front() ? "the best"
+                        : design.against_best.verdict == Verdict::indistinguishable
+                            ? fmt::format("a tie: {} more", above)
+                            : fmt::format("worse by {}", above));
+  }
+  return text + '\n';
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "objectives/design_comparison.hpp"
+#include "objectives/design_trial.hpp"
+#include "results/archive.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace nlcwfs {
+
+/// A design on fresh screens, archived.
+/// @param name  for the progress line
+TriedDesign verified_design(const SensorDesign& design, const std::string& name,
+                            const DesignTrial& verification, Archive& archive, bool quiet);
+
+/// One of the best designs of a search or a sweep, held against the best of them on fresh screens.
+struct RankedDesign {
+  std::size_t candidate;  ///< its place among those that were verified
+  TriedDesign verified;
+  /// The best design's cost minus this one's, paired by screen; better or worse than the best where
+  /// it can be told apart.
+  Improvement against_best;
+};
+
+/// Those that keep the limits, or come closest, first; of these by their costs.
+std::vector<RankedDesign> ranked(std::vector<TriedDesign> verified);
+
+nlohmann::ordered_json to_json(const std::vector<RankedDesign>& ranking,
+                               const DesignTrial& verification);
+
+/// For people, whether the best few can be told apart; empty where there is one.
+/// @param of  what found them: "The search"
+std::string ranking_text(const std::vector<RankedDesign>& ranking, std::string_view of);
+
+}  // namespace nlcwfs
