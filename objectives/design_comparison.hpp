@@ -12,8 +12,8 @@ enum class Verdict { better, indistinguishable, worse };
 
 /// How much cheaper one design is than another on the same screens.
 struct Improvement {
-  MeanAndError cost;  ///< reference - candidate, paired by screen: above 0 is better
-  Verdict verdict;    ///< by Student's t test at 5 %, two-sided
+  MeanAndError cost = {};  ///< reference - candidate, paired by screen: above 0 is better
+  Verdict verdict = Verdict::indistinguishable;  ///< by Student's t test at 5 %, two-sided
 };
 
 /// Compares figures, of which lower is better, of two designs on the same screens.

@@ -72,7 +72,7 @@ void require_distances(const std::string& key, const Domain& domain, bool both_s
     }
     return;
   }
-  const ValueRange& range = std::get<ValueRange>(domain);
+  const auto& range = std::get<ValueRange>(domain);
   if (!(range.lower < range.upper) || range.lower == 0.0 || range.upper == 0.0 ||
       (!both_sides && !(range.lower > 0.0))) {
     throw InputError(key, text_of(range),
@@ -315,85 +315,96 @@ double rounded_window(double window, int samples) {
 
 DesignSpace::DesignSpace(const Telescope& telescope, DesignSpaceOptions options)
     : telescope_(telescope), options_(std::move(options)) {
-  const bool is_symmetric = options_.layout == Layout::symmetric;
-  const double length_unit = distance_at_fresnel_number(telescope, 1.0);
-  const auto [nearest, farthest] = default_distance_range(telescope);
-  const auto key_of = [&](std::string_view name) {
-    return fmt::format("{}.{}", options_.section, name);
-  };
-
-  const auto distance_axis = [&](const std::string& name) -> Axis {
-    const auto given = options_.domains.find(name);
-    const Domain domain = given != options_.domains.end()
-                              ? given->second
-                              : Domain(ValueRange{is_symmetric ? nearest : -farthest, farthest});
-    require_distances(key_of(name), domain, !is_symmetric, telescope);
-    if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
-      return {name, Axis::Form::listed, *list, 1.0, VariableKind::integer};
-    }
-    const auto [lower, upper, scale] = std::get<ValueRange>(domain);
-    if (scale == Scale::linear) return {name, Axis::Form::linear, {lower, upper}};
-    if (lower > 0.0) return {name, Axis::Form::above, {lower, upper}, length_unit};
-    if (upper < 0.0) return {name, Axis::Form::below, {lower, upper}, length_unit};
-    const double closest = std::min({nearest, -0.5 * lower, 0.5 * upper});
-    return {name, Axis::Form::two_sided, {lower, upper}, closest};
-  };
-  const auto property_axis = [&](const DesignProperty& property, const Domain& domain) -> Axis {
-    const std::string name(property.name);
-    require_property(key_of(name), domain, property);
-    const VariableKind list_kind = property.kind == VariableKind::categorical
-                                       ? VariableKind::categorical
-                                       : VariableKind::integer;
-    if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
-      return {name, Axis::Form::listed, *list, 1.0, list_kind};
-    }
-    const auto [lower, upper, scale] = std::get<ValueRange>(domain);
-    if (property.kind == VariableKind::integer) {
-      return {name, Axis::Form::linear, {lower, upper}, 1.0, VariableKind::integer};
-    }
-    return {name,
-            scale.value_or(property.scale) == Scale::logarithmic ? Axis::Form::above
-                                                                 : Axis::Form::linear,
-            {lower, upper}};
-  };
-
   for (const int planes : options_.plane_counts) {
     if (planes < 2 || planes > most_planes) {
       throw InputError(key_of("plane_count"), planes, fmt::format("from 2 to {}", most_planes));
     }
-    Region region{planes, {}, {}, {}};
-    for (const std::string& name : region.distances(options_.layout)) {
-      region.add(distance_axis(name));
-    }
-    if (is_symmetric) {
-      std::ranges::copy_if(
-          options_.orders, std::back_inserter(region.orders),
-          [&](const auto& order) { return static_cast<int>(order.size()) == planes; });
-      if (region.orders.empty()) region.orders = all_orders(planes);
-      std::vector<double> indices(region.orders.size());
-      std::iota(indices.begin(), indices.end(), 0.0);
-      region.add({"order", Axis::Form::listed, indices, 1.0, VariableKind::categorical});
-    }
-    for (const auto& [name, domain] : options_.domains) {
-      if (const DesignProperty* property = find_property(name)) {
-        region.add(property_axis(*property, domain));
-      }
-    }
-    regions_.push_back(std::move(region));
+    regions_.push_back(region_of(planes));
   }
+  require_used_domains();
+}
 
+std::string DesignSpace::key_of(std::string_view name) const {
+  return fmt::format("{}.{}", options_.section, name);
+}
+
+DesignSpace::Region DesignSpace::region_of(int planes) const {
+  Region region{planes, {}, {}, {}};
+  for (const std::string& name : region.distances(options_.layout)) {
+    region.add(distance_axis(name));
+  }
+  if (options_.layout == Layout::symmetric) {
+    std::ranges::copy_if(
+        options_.orders, std::back_inserter(region.orders),
+        [&](const auto& order) { return static_cast<int>(order.size()) == planes; });
+    if (region.orders.empty()) region.orders = all_orders(planes);
+    std::vector<double> indices(region.orders.size());
+    std::iota(indices.begin(), indices.end(), 0.0);
+    region.add({"order", Axis::Form::listed, indices, 1.0, VariableKind::categorical});
+  }
   for (const auto& [name, domain] : options_.domains) {
+    if (const DesignProperty* property = find_property(name)) {
+      region.add(property_axis(*property, domain));
+    }
+  }
+  return region;
+}
+
+DesignSpace::Axis DesignSpace::distance_axis(const std::string& name) const {
+  const bool is_symmetric = options_.layout == Layout::symmetric;
+  const auto [nearest, farthest] = default_distance_range(telescope_);
+  const auto given = options_.domains.find(name);
+  const Domain domain = given != options_.domains.end()
+                            ? given->second
+                            : Domain(ValueRange{is_symmetric ? nearest : -farthest, farthest});
+  require_distances(key_of(name), domain, !is_symmetric, telescope_);
+  if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
+    return {name, Axis::Form::listed, *list, 1.0, VariableKind::integer};
+  }
+  const double length_unit = distance_at_fresnel_number(telescope_, 1.0);
+  const auto [lower, upper, scale] = std::get<ValueRange>(domain);
+  if (scale == Scale::linear) return {name, Axis::Form::linear, {lower, upper}};
+  if (lower > 0.0) return {name, Axis::Form::above, {lower, upper}, length_unit};
+  if (upper < 0.0) return {name, Axis::Form::below, {lower, upper}, length_unit};
+  const double closest = std::min({nearest, -0.5 * lower, 0.5 * upper});
+  return {name, Axis::Form::two_sided, {lower, upper}, closest};
+}
+
+DesignSpace::Axis DesignSpace::property_axis(const DesignProperty& property,
+                                             const Domain& domain) const {
+  const std::string name(property.name);
+  require_property(key_of(name), domain, property);
+  const VariableKind list_kind = property.kind == VariableKind::categorical
+                                     ? VariableKind::categorical
+                                     : VariableKind::integer;
+  if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
+    return {name, Axis::Form::listed, *list, 1.0, list_kind};
+  }
+  const auto [lower, upper, scale] = std::get<ValueRange>(domain);
+  if (property.kind == VariableKind::integer) {
+    return {name, Axis::Form::linear, {lower, upper}, 1.0, VariableKind::integer};
+  }
+  return {
+      name,
+      scale.value_or(property.scale) == Scale::logarithmic ? Axis::Form::above : Axis::Form::linear,
+      {lower, upper}};
+}
+
+void DesignSpace::require_used_domains() const {
+  const bool is_symmetric = options_.layout == Layout::symmetric;
+  for (const auto& domain : options_.domains) {
+    const std::string& name = domain.first;
     if (find_property(name) != nullptr) continue;
     if (is_pair_name(name) != is_symmetric) {
       throw InputError(
-          key_of(name), text_of(domain),
+          key_of(name), text_of(domain.second),
           fmt::format("is for {} = {}", key_of("layout"), is_symmetric ? "free" : "symmetric"));
     }
     const bool is_used = std::ranges::any_of(regions_, [&](const Region& region) {
       return std::ranges::count(region.distances(options_.layout), name) > 0;
     });
     if (!is_used) {
-      throw InputError(key_of(name), text_of(domain),
+      throw InputError(key_of(name), text_of(domain.second),
                        fmt::format("there are at most {} planes, see {}",
                                    std::ranges::max(options_.plane_counts), key_of("plane_count")));
     }

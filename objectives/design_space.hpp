@@ -106,10 +106,10 @@ class DesignSpace {
   /// @throws InputError where a domain is not valid or belongs to no design of the space
   DesignSpace(const Telescope& telescope, DesignSpaceOptions options);
   ~DesignSpace();
-  DesignSpace(DesignSpace&&) noexcept;
-  DesignSpace(const DesignSpace&) = delete;
-  DesignSpace& operator=(const DesignSpace&) = delete;
-  DesignSpace& operator=(DesignSpace&&) = delete;
+  DesignSpace(DesignSpace&& other) noexcept;
+  DesignSpace(const DesignSpace& other) = delete;
+  DesignSpace& operator=(const DesignSpace& other) = delete;
+  DesignSpace& operator=(DesignSpace&& other) = delete;
 
   /// A sub-space may have no variable: all of its design is fixed.
   std::vector<SubSpace> sub_spaces() const;
@@ -138,6 +138,13 @@ class DesignSpace {
  private:
   struct Axis;
   struct Region;
+
+  /// Of the configuration.
+  std::string key_of(std::string_view name) const;
+  Region region_of(int planes) const;
+  Axis distance_axis(const std::string& name) const;
+  Axis property_axis(const DesignProperty& property, const Domain& domain) const;
+  void require_used_domains() const;
 
   Telescope telescope_;
   DesignSpaceOptions options_;

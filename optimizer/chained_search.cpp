@@ -146,7 +146,7 @@ class ChainedSearch {
     Eigen::Index i = 0;
     for (const Variable& variable : evaluator_.variables_of(point)) {
       if (!variable.is_continuous()) {
-        for (double value = variable.lower; value <= variable.upper; ++value) {
+        for (const double value : variable.outstanding_values()) {
           if (value == point.x[i]) continue;
           neighbours.push_back(point);
           neighbours.back().x[i] = value;
@@ -179,9 +179,10 @@ class ChainedSearch {
     begin_stage("choices");
     std::vector<SearchPoint> points = neighbours(best_point());
     // What is known already costs nothing.
-    const auto unknown = std::ranges::stable_partition(
-        points, [&](const SearchPoint& point) { return evaluator_.was_evaluated(point); });
-    const auto first_new = static_cast<std::size_t>(unknown.begin() - points.begin());
+    const auto unknown = std::stable_partition(
+        points.begin(), points.end(),
+        [&](const SearchPoint& point) { return evaluator_.was_evaluated(point); });
+    const auto first_new = static_cast<std::size_t>(unknown - points.begin());
     const std::size_t affordable = first_new + static_cast<std::size_t>(affordable_neighbours());
     const bool all = points.size() <= affordable;
     if (!all) {

@@ -1,8 +1,16 @@
 #include "optimizer/problem.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace nlcwfs {
+
+std::vector<double> Variable::outstanding_values() const {
+  if (is_continuous()) return {lower, upper};
+  std::vector<double> values(static_cast<std::size_t>(upper - lower) + 1);
+  std::iota(values.begin(), values.end(), lower);
+  return values;
+}
 
 int SubSpace::continuous_count() const {
   return static_cast<int>(std::ranges::count_if(variables, &Variable::is_continuous));

@@ -27,6 +27,9 @@ struct Variable {
   VariableKind kind = VariableKind::continuous;
 
   bool is_continuous() const { return kind == VariableKind::continuous; }
+
+  /// All values of a discrete variable; of a continuous one both ends of its range.
+  std::vector<double> outstanding_values() const;
 };
 
 /// The designs that one set of variables describes. What has other variables (a sensor of another

@@ -32,10 +32,10 @@ std::string axis(std::string_view name, const std::vector<double>& values) {
   const double least = std::ranges::min(values) / margin;
   const double greatest = std::ranges::max(values) * margin;
   std::string tics;
-  for (double decade = std::pow(10.0, std::floor(std::log10(least))); decade < greatest;
-       decade *= 10.0) {
+  const auto last = static_cast<int>(std::floor(std::log10(greatest)));
+  for (auto decade = static_cast<int>(std::floor(std::log10(least))); decade <= last; ++decade) {
     for (const double factor : {1.0, 2.0, 5.0}) {
-      const double tic = factor * decade;
+      const double tic = factor * std::pow(10.0, decade);
       if (tic < least || tic > greatest) continue;
       tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", tic, tic);
     }
@@ -46,21 +46,9 @@ std::string axis(std::string_view name, const std::vector<double>& values) {
 
 bool is_drawable(const ScatterPoint& point) { return point.x > 0.0 && point.y.mean > 0.0; }
 
-}  // namespace
-
-std::optional<std::string> write_picture(const ScatterPicture& picture,
-                                         const std::filesystem::path& stem) {
-  if (std::ranges::none_of(picture.points, is_drawable)) return "there is no value to draw";
-  std::vector<double> xs;
-  std::vector<double> ys;
-  for (const ScatterPoint& point : picture.points) {
-    if (!is_drawable(point)) continue;
-    xs.push_back(point.x);
-    ys.push_back(point.y.mean);
-  }
-  std::string script = fmt::format(
-      "set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
-      gnuplot_text(picture.x_label), gnuplot_text(picture.y_label), axis("x", xs), axis("y", ys));
+/// The points of each group.
+/// @param script  gets their data
+std::vector<std::string> plot_points(const ScatterPicture& picture, std::string& script) {
   std::vector<std::string> plots;
   for (std::size_t colour = 0; colour < picture.colours.size(); ++colour) {
     for (std::size_t symbol = 0; symbol < picture.symbols.size(); ++symbol) {
@@ -84,6 +72,25 @@ std::optional<std::string> write_picture(const ScatterPicture& picture,
       }
     }
   }
+  return plots;
+}
+
+}  // namespace
+
+std::optional<std::string> write_picture(const ScatterPicture& picture,
+                                         const std::filesystem::path& stem) {
+  if (std::ranges::none_of(picture.points, is_drawable)) return "there is no value to draw";
+  std::vector<double> xs;
+  std::vector<double> ys;
+  for (const ScatterPoint& point : picture.points) {
+    if (!is_drawable(point)) continue;
+    xs.push_back(point.x);
+    ys.push_back(point.y.mean);
+  }
+  std::string script = fmt::format(
+      "set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
+      gnuplot_text(picture.x_label), gnuplot_text(picture.y_label), axis("x", xs), axis("y", ys));
+  std::vector<std::string> plots = plot_points(picture, script);
   if (picture.marked && is_drawable(picture.points[*picture.marked])) {
     script += data_block("marked", row_of(picture.points[*picture.marked]));
     plots.push_back(fmt::format(

@@ -11,8 +11,8 @@ namespace nlcwfs {
 
 /// A point of a scatter picture.
 struct ScatterPoint {
-  double x;
-  MeanAndError y;
+  double x = 0.0;
+  MeanAndError y = {};
   int colour = 0;        ///< index in ScatterPicture::colours
   int symbol = 0;        ///< index in ScatterPicture::symbols
   bool is_pale = false;  ///< for what counts less

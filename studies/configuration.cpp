@@ -183,7 +183,7 @@ bool ConfigurationKey::accepts(std::string_view value) const {
       const auto domain = parse_domain(value, parser_of(*this));
       if (!domain) return false;
       if (const auto* list = std::get_if<std::vector<double>>(&*domain)) return all_within(*list);
-      const ValueRange& range = std::get<ValueRange>(*domain);
+      const auto& range = std::get<ValueRange>(*domain);
       return element != Kind::choice && bounds.contain(range.lower) && bounds.contain(range.upper);
     }
     case Kind::axis: {

@@ -78,13 +78,13 @@ void require_valid_designs(const DesignSpace& space, const DesignTrial& trial) {
     for (std::size_t i = 0; i < variables.size(); ++i) {
       point.x[Eigen::Index(i)] = variables[i].lower;
     }
+    trial.checked(space.design(point));
     for (std::size_t i = 0; i < variables.size(); ++i) {
       SearchPoint moved = point;
       double& x = moved.x[Eigen::Index(i)];
-      const bool is_order = space.name(point.sub_space, i) == "order";  // all are equally valid
-      const double step =
-          variables[i].is_continuous() || is_order ? variables[i].upper - variables[i].lower : 1.0;
-      for (x = variables[i].lower; x <= variables[i].upper; x += step) {
+      if (space.name(point.sub_space, i) == "order") continue;  // all are equally valid
+      for (const double value : variables[i].outstanding_values()) {
+        x = value;
         trial.checked(space.design(moved));
       }
     }

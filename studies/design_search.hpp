@@ -36,8 +36,8 @@ struct DesignSearchResult {
   SearchResult search;
   /// The search's best few on fresh screens, by their costs there, best first.
   std::vector<RankedDesign> ranking;
-  TriedDesign baseline;  ///< on the same screens
-  Improvement gain;      ///< of the best over the baseline
+  TriedDesign baseline;   ///< on the same screens
+  Improvement gain = {};  ///< of the best over the baseline
   /// Nothing where the search was interrupted.
   std::vector<OptimumRange> ranges;
   int cheap_evaluations = 0;        ///< designs of the cheap stage

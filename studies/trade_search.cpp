@@ -53,10 +53,9 @@ double greatest(const DesignSpace& space, const Figure& figure) {
     }
     double best = 0.0;
     for (std::size_t i = 0; i < variables.size(); ++i) {
-      const auto& [name, lower, upper, kind] = variables[i];
-      const double step = kind == VariableKind::continuous ? upper - lower : 1.0;
       SearchPoint moved = point;
-      for (double& x = moved.x[Eigen::Index(i)] = lower; x <= upper; x += step) {
+      for (const double value_of_variable : variables[i].outstanding_values()) {
+        moved.x[Eigen::Index(i)] = value_of_variable;
         const double value = figure(space.design(moved));
         if (value <= best) continue;
         best = value;

@@ -20,11 +20,11 @@ TriedDesign verified_design(const SensorDesign& design, const std::string& name,
 
 /// One of the best designs of a search or a sweep, held against the best of them on fresh screens.
 struct RankedDesign {
-  std::size_t candidate;  ///< its place among those that were verified
+  std::size_t candidate = 0;  ///< its place among those that were verified
   TriedDesign verified;
   /// The best design's cost minus this one's, paired by screen; better or worse than the best where
   /// it can be told apart.
-  Improvement against_best;
+  Improvement against_best = {};
 };
 
 /// Those that keep the limits, or come closest, first; of these by their costs.
