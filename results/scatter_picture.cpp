@@ -46,30 +46,22 @@ std::string axis(std::string_view name, const std::vector<double>& values) {
 
 bool is_drawable(const ScatterPoint& point) { return point.x > 0.0 && point.y.mean > 0.0; }
 
-/// The points of each group.
+/// Each point, the pale ones below the others.
 /// @param script  gets their data
 std::vector<std::string> plot_points(const ScatterPicture& picture, std::string& script) {
   std::vector<std::string> plots;
-  for (std::size_t colour = 0; colour < picture.colours.size(); ++colour) {
-    for (std::size_t symbol = 0; symbol < picture.symbols.size(); ++symbol) {
-      for (const bool is_pale : {true, false}) {
-        std::string rows;
-        for (const ScatterPoint& point : picture.points) {
-          if (point.colour == static_cast<int>(colour) &&
-              point.symbol == static_cast<int>(symbol) && point.is_pale == is_pale &&
-              is_drawable(point)) {
-            rows += row_of(point);
-          }
-        }
-        if (rows.empty()) continue;
-        const std::string name = fmt::format("of{}_{}_{}", colour, symbol, is_pale ? 1 : 0);
-        script += data_block(name, rows);
-        plots.push_back(fmt::format(
-            "${} using 1:2:3:4 with yerrorbars pointtype {} pointsize 1 linecolor rgb '#{}{}' "
-            "notitle",
-            name, symbol_types[symbol % symbol_types.size()], is_pale ? "b0" : "20",
-            palette[colour % palette.size()] + 1));
-      }
+  for (const bool is_pale : {true, false}) {
+    for (std::size_t i = 0; i < picture.points.size(); ++i) {
+      const ScatterPoint& point = picture.points[i];
+      if (point.is_pale != is_pale || !is_drawable(point)) continue;
+      const std::string name = fmt::format("point{}", i);
+      script += data_block(name, row_of(point));
+      plots.push_back(fmt::format(
+          "${} using 1:2:3:4 with yerrorbars pointtype {} pointsize 1 linecolor rgb '#{}{}' "
+          "notitle",
+          name, symbol_types[static_cast<std::size_t>(point.symbol) % symbol_types.size()],
+          is_pale ? "b0" : "20",
+          palette[static_cast<std::size_t>(point.colour) % palette.size()] + 1));
     }
   }
   return plots;
