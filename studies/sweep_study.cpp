@@ -23,7 +23,6 @@
 #include <mutex>
 #include <new>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <stdexcept>
 
@@ -362,8 +361,8 @@ Json matrix_of(const DesignGrid& grid, const std::vector<const Outcome*>& points
     rows.push_back(has_value ? Json(value(*point)) : Json(nullptr));
   }
   // Cut into the innermost arrays, these into the next ones, ...
-  for (const GridAxis& axis : grid.axes() | std::views::reverse) {
-    const auto length = static_cast<std::ptrdiff_t>(axis.values.size());
+  for (std::size_t axis = grid.axes().size(); axis-- > 0;) {
+    const auto length = static_cast<std::ptrdiff_t>(grid.axes()[axis].values.size());
     std::vector<Json> outer;
     for (auto begin = rows.begin(); begin != rows.end(); begin += length) {
       outer.emplace_back(Json::array_t(begin, begin + length));

@@ -130,22 +130,34 @@ bool stands_before(const TradedDesign& a, const TradedDesign& b) {
   return rank(a) < rank(b);
 }
 
-/// Whether a design is another's equal or better in each objective, and better in one.
-bool is_no_worse(const TradedDesign& design, const TradedDesign& other) {
-  const std::vector<double>& ours = design.evaluated.objectives;
+/// Whether one is the other's equal or better in each objective, and better in one.
+bool is_no_worse(const TradedDesign& one, const TradedDesign& other) {
+  const std::vector<double>& ours = one.evaluated.objectives;
   const std::vector<double>& theirs = other.evaluated.objectives;
   return ours != theirs && std::ranges::equal(ours, theirs, std::ranges::less_equal());
 }
 
+/// Whether that is more than chance in one objective.
 /// @pre is_no_worse
-bool is_clearly_better_in_one(const TradedDesign& design, const TradedDesign& other) {
-  for (std::size_t i = 0; i < design.samples.size(); ++i) {
+bool is_clearly_better(const TradedDesign& one, const TradedDesign& other) {
+  for (std::size_t i = 0; i < one.samples.size(); ++i) {
     // The means say in which direction.
-    if (improvement(design.samples[i], other.samples[i]).verdict != Verdict::indistinguishable) {
+    if (improvement(one.samples[i], other.samples[i]).verdict != Verdict::indistinguishable) {
       return true;
     }
   }
   return false;
+}
+
+/// Whether another of the front betters or ties with a design.
+void hold_against(const std::vector<TradedDesign>& front, TradedDesign& traded) {
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    const TradedDesign& rival = front[i];
+    if (rival.evaluated.violation > 0.0 || !is_no_worse(rival, traded)) continue;
+    if (is_clearly_better(rival, traded)) traded.dominated = true;
+    if (!traded.tied_with) traded.tied_with = i;
+  }
+  if (traded.dominated) traded.tied_with.reset();
 }
 
 }  // namespace
@@ -270,16 +282,8 @@ void TradeSearch::judge_front(TradeResult& result) const {
   for (std::size_t i = 0; i < result.front.size(); ++i) {
     TradedDesign& traded = result.front[i];
     if (traded.evaluated.violation > 0.0) continue;
-    for (std::size_t k = 0; k < result.front.size(); ++k) {
-      const TradedDesign& other = result.front[k];
-      if (other.evaluated.violation > 0.0 || !is_no_worse(other, traded)) continue;
-      if (is_clearly_better_in_one(other, traded)) traded.dominated = true;
-      if (!traded.tied_with) traded.tied_with = k;
-    }
-    if (traded.dominated) {
-      traded.tied_with.reset();
-      continue;
-    }
+    hold_against(result.front, traded);
+    if (traded.dominated) continue;
     standing.push_back(i);
     designs.push_back(traded.evaluated);
   }
