@@ -63,6 +63,7 @@ TriedDesign verified_design(const SensorDesign& design, const std::string& name,
 
 std::vector<RankedDesign> ranked(std::vector<TriedDesign> verified) {
   std::vector<RankedDesign> ranking;
+  ranking.reserve(verified.size());
   for (TriedDesign& tried : verified) {
     ranking.push_back(
         {.candidate = ranking.size(), .verified = std::move(tried), .against_best = {}});
