@@ -78,7 +78,7 @@ void SearchLog::add(const EvaluationRecord& evaluation) {
       reconstructions_ += static_cast<long>(performance.screens.size());
     }
   }
-  given_up_ += evaluation.given_up;
+  given_up_ += evaluation.given_up ? 1 : 0;
   show_progress(evaluation);
 }
 

@@ -43,7 +43,7 @@ std::vector<int> whole_numbers(std::string_view key, const Domain& domain) {
       numbers.push_back(number);
     }
   } else {
-    const ValueRange& range = std::get<ValueRange>(domain);
+    const auto& range = std::get<ValueRange>(domain);
     for (auto number = static_cast<int>(range.lower); number <= range.upper; ++number) {
       numbers.push_back(number);
     }
