@@ -26,13 +26,13 @@ void screens(benchmark::State& state) {
 void images(benchmark::State& state, TruthModel truth) {
   const Telescope telescope;
   const int samples = default_truth_samples(truth);
-  const SensorDesign design = simulated_design(SensorDesign(), telescope, truth, samples);
-  const auto light = make_true_light(truth, telescope, design, samples);
-  const PupilMask mask = pupil_mask(samples, telescope.central_obscuration);
+  const SensorDesign design =
+      simulated_design(SensorDesign(), telescope, {.truth = truth}, samples);
+  const TrueLight light(truth, telescope, design, samples);
   const PhaseScreen screen = default_screens(samples, 1).front();
   const std::vector<std::size_t> all_planes{0, 1, 2, 3};
   while (state.KeepRunning()) {
-    benchmark::DoNotOptimize(light->images(pupil_field(screen, mask), all_planes));
+    benchmark::DoNotOptimize(light.images(screen, all_planes));
   }
 }
 

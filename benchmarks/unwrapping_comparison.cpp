@@ -76,8 +76,7 @@ std::vector<Outcome> outcomes_of(const Telescope& telescope, const SensorDesign&
 
   const PupilMask truth_mask = pupil_mask(truth_samples, telescope.central_obscuration);
   const int samples_per_pixel = truth_samples / design.detector.pupil_pixels;
-  const std::unique_ptr<const TrueLight> light =
-      make_true_light(TruthModel::extended, telescope, design, truth_samples);
+  const TrueLight light(TruthModel::extended, telescope, design, truth_samples);
   std::vector<std::size_t> all_planes(design.planes.size());
   std::iota(all_planes.begin(), all_planes.end(), std::size_t{0});
   const double photons_per_unit = design.detector.photons / double(design.planes.size()) *
@@ -87,7 +86,7 @@ std::vector<Outcome> outcomes_of(const Telescope& telescope, const SensorDesign&
   std::vector<Outcome> outcomes(screens.size());
   tbb::parallel_for(std::size_t{0}, screens.size(), [&](std::size_t screen) {
     const PhaseScreen& truth = screens[screen];
-    std::vector<Image<double>> images = light->images(pupil_field(truth, truth_mask), all_planes);
+    std::vector<Image<double>> images = light.images(truth, all_planes);
     if (design.detector.photons > 0.0) {
       for (std::size_t plane = 0; plane < images.size(); ++plane) {
         RandomStream stream = random_stream({seed, screen, plane});

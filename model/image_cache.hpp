@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/array.hpp"
+#include "model/light_source.hpp"
 
 #include <compare>
 #include <cstddef>
@@ -17,12 +18,14 @@ namespace nlcwfs {
 /// of which the images that were not asked for the longest go first. May be used by many threads.
 class ImageCache {
  public:
-  /// What an image depends on, with one telescope, truth and set of screens.
+  /// What an image depends on, with one telescope, truth, set of screens and
+  /// spectrum within its bands.
   struct Key {
     std::size_t screen;
     double plane;      ///< signed distance, m
     int width;         ///< of the detector, pixels
     int pupil_pixels;  ///< across the pupil
+    Band band;         ///< of the plane's light
 
     // NOLINTNEXTLINE(modernize-use-nullptr): it compares with 0, which is no pointer
     auto operator<=>(const Key&) const = default;

@@ -50,8 +50,8 @@ class Experiment {
         images_(images),
         samples_per_pixel_(static_cast<int>(truth_mask.rows()) / design.detector.pupil_pixels),
         noise_keys_(ranks_by_distance(design.planes)),
-        light_(
-            make_true_light(options.truth, telescope, design, static_cast<int>(truth_mask.rows()))),
+        light_(options.truth, telescope, design, static_cast<int>(truth_mask.rows()),
+               options.source),
         reconstructor_(telescope, design) {}
 
   ScreenPerformance run(const PhaseScreen& truth, std::size_t screen) const {
@@ -89,7 +89,8 @@ class Experiment {
   std::vector<ImageCache::SharedImage> noise_free_images(const PhaseScreen& truth,
                                                          std::size_t screen) const {
     const auto key = [&](std::size_t plane) {
-      return ImageCache::Key{screen, planes_[plane], detector_.width(), detector_.pupil_pixels};
+      return ImageCache::Key{screen, planes_[plane], detector_.width(), detector_.pupil_pixels,
+                             options_.source.band(plane, planes_.size(), telescope_.wavelength)};
     };
     std::vector<ImageCache::SharedImage> images(planes_.size());
     std::vector<std::size_t> missing;
@@ -98,7 +99,7 @@ class Experiment {
       if (!images[plane]) missing.push_back(plane);
     }
     if (missing.empty()) return images;
-    std::vector<Image<double>> made = light_->images(pupil_field(truth, truth_mask_), missing);
+    std::vector<Image<double>> made = light_.images(truth, missing);
     for (std::size_t i = 0; i < missing.size(); ++i) {
       images[missing[i]] = std::make_shared<const Image<double>>(std::move(made[i]));
       images_.add(key(missing[i]), images[missing[i]]);
@@ -130,7 +131,7 @@ class Experiment {
   ImageCache& images_;
   int samples_per_pixel_;
   std::vector<std::size_t> noise_keys_;
-  std::unique_ptr<const TrueLight> light_;
+  TrueLight light_;
   GerchbergSaxton<Real> reconstructor_;
 };
 
@@ -154,9 +155,10 @@ Performance run_screens(const Telescope& telescope, const SensorDesign& design,
 
 }  // namespace
 
-SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, TruthModel truth,
-                              int truth_samples) {
+SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
+                              const SimulationOptions& options, int truth_samples) {
   telescope.validate();
+  options.source.validate(design.planes.size());
   for (const int samples : {design.detector.pupil_pixels, truth_samples}) {
     if (!pupil_mask(samples, telescope.central_obscuration).any()) {
       throw InputError(
@@ -165,7 +167,7 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, T
     }
   }
   const int pixels = design.detector.pupil_pixels;
-  if (truth == TruthModel::matched) {
+  if (options.truth == TruthModel::matched) {
     // The detector's own window is not used; one that always fits leaves errors to the other's key.
     design.detector.window = 1.0;
     design.validate(telescope);
@@ -198,12 +200,16 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, T
       WrapFreePropagator(truth_samples, grid_width(design.detector.window, truth_samples),
                          telescope.diameter / truth_samples, telescope.wavelength)
           .farthest_distance();
-  for (const double plane : design.planes) {
-    if (std::abs(plane) <= farthest) continue;
-    throw InputError("sensor.planes", plane,
+  const std::size_t planes = design.planes.size();
+  for (std::size_t plane = 0; plane < planes; ++plane) {
+    // Long waves spread like those of the band's middle would farther away.
+    const Band band = options.source.band(plane, planes, telescope.wavelength);
+    const double reach = farthest * band.centre() / band.longest;
+    if (std::abs(design.planes[plane]) <= reach) continue;
+    throw InputError("sensor.planes", design.planes[plane],
                      fmt::format("distances within +-{:.6g} m with simulation.pupil_samples = {}; "
                                  "fewer samples reach farther",
-                                 farthest, truth_samples));
+                                 reach, truth_samples));
   }
   return design;
 }
@@ -220,7 +226,7 @@ Simulation::Simulation(const Telescope& telescope, std::vector<PhaseScreen> scre
 }
 
 SensorDesign Simulation::checked(SensorDesign design) const {
-  return simulated_design(std::move(design), telescope_, options_.truth, truth_samples());
+  return simulated_design(std::move(design), telescope_, options_, truth_samples());
 }
 
 Performance Simulation::evaluate(const SensorDesign& design) const {

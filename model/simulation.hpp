@@ -2,6 +2,7 @@
 
 #include "model/array.hpp"
 #include "model/image_cache.hpp"
+#include "model/light_source.hpp"
 #include "model/performance.hpp"
 #include "model/pupil.hpp"
 #include "model/sensor_design.hpp"
@@ -21,14 +22,16 @@ struct SimulationOptions {
   TruthModel truth = TruthModel::extended;
   Precision precision = Precision::double_precision;
   std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
+  LightSource source = {};
 };
 
 /// A design as it is simulated: with a matched truth the detector is as wide as the reconstruction
 /// grid.
 /// @param truth_samples  of the true field across the diameter
-/// @throws InputError where the design is not valid or does not fit the truth's samples
-SensorDesign simulated_design(SensorDesign design, const Telescope& telescope, TruthModel truth,
-                              int truth_samples);
+/// @throws InputError where the design is not valid, or does not fit the truth's samples or the
+///         source
+SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
+                              const SimulationOptions& options, int truth_samples);
 
 /// Judges sensor designs on a fixed set of wavefronts: pupil field -> propagation to each plane ->
 /// detector images -> Gerchberg-Saxton reconstruction -> unwrapping -> metrics.

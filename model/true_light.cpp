@@ -6,6 +6,8 @@
 #include "model/wrap_free_propagator.hpp"
 
 #include <cassert>
+#include <map>
+#include <utility>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -13,32 +15,32 @@
 namespace nlcwfs {
 namespace {
 
-class ExtendedLight final : public TrueLight {
+class ExtendedPath final : public LightPath {
  public:
-  ExtendedLight(const Telescope& telescope, const SensorDesign& design, int pupil_samples)
+  ExtendedPath(const Telescope& telescope, const SensorDesign& design, int pupil_samples,
+               const std::vector<double>& distances)
       : samples_per_pixel_(pupil_samples / design.detector.pupil_pixels),
         propagator_(pupil_samples, grid_width(design.detector.window, pupil_samples),
                     telescope.diameter / pupil_samples, telescope.wavelength),
-        transfer_functions_(design.planes.size()),
+        transfer_functions_(distances.size()),
         buffers_([this] {
           return Buffers{propagator_.working_field(), propagator_.working_field()};
         }) {
-    tbb::parallel_for(std::size_t{0}, design.planes.size(), [&](std::size_t plane) {
-      transfer_functions_[plane] = propagator_.transfer_function(design.planes[plane]);
+    tbb::parallel_for(std::size_t{0}, distances.size(), [&](std::size_t i) {
+      transfer_functions_[i] = propagator_.transfer_function(distances[i]);
     });
   }
 
-  std::vector<Image<double>> images(const Field<double>& pupil,
-                                    std::span<const std::size_t> wanted) const override {
+  void make_images(
+      const Field<double>& pupil, std::span<const std::size_t> wanted,
+      const std::function<void(std::size_t, const Image<double>&)>& take) const override {
     auto& [spectrum, field] = buffers_.local();
     const int window = propagator_.window_samples();
     propagator_.transform(pupil, spectrum);
-    std::vector<Image<double>> images;
-    for (const std::size_t plane : wanted) {
-      propagator_.propagate(spectrum, transfer_functions_[plane], field);
-      images.push_back(integrate_pixels(field.topLeftCorner(window, window), samples_per_pixel_));
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      propagator_.propagate(spectrum, transfer_functions_[wanted[i]], field);
+      take(i, integrate_pixels(field.topLeftCorner(window, window), samples_per_pixel_));
     }
-    return images;
   }
 
  private:
@@ -54,45 +56,91 @@ class ExtendedLight final : public TrueLight {
   mutable tbb::enumerable_thread_specific<Buffers> buffers_;
 };
 
-class MatchedLight final : public TrueLight {
+class MatchedPath final : public LightPath {
  public:
-  MatchedLight(const Telescope& telescope, const SensorDesign& design)
-      : planes_(design.planes),
+  MatchedPath(const Telescope& telescope, const SensorDesign& design, std::vector<double> distances)
+      : distances_(std::move(distances)),
         propagator_(design.grid_width(), telescope.diameter / design.pupil_samples(),
                     telescope.wavelength),
         fields_(
             [samples = propagator_.samples()] { return padded_lines<double>(samples, samples); }) {}
 
-  std::vector<Image<double>> images(const Field<double>& pupil,
-                                    std::span<const std::size_t> wanted) const override {
+  void make_images(
+      const Field<double>& pupil, std::span<const std::size_t> wanted,
+      const std::function<void(std::size_t, const Image<double>&)>& take) const override {
     const int width = propagator_.samples();
     const RowRange pupil_rows = propagator_.middle_rows(pupil.rows());
     Field<double>& field = fields_.local();
-    std::vector<Image<double>> images;
-    for (const std::size_t plane : wanted) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
       field.setZero();
       field.block(pupil_rows.first, pupil_rows.first, pupil.rows(), pupil.cols()) = pupil;
-      propagator_.propagate(field, planes_[plane]);
-      images.push_back(integrate_pixels(field.leftCols(width), 1));
+      propagator_.propagate(field, distances_[wanted[i]]);
+      take(i, integrate_pixels(field.leftCols(width), 1));
     }
-    return images;
   }
 
  private:
-  std::vector<double> planes_;
+  std::vector<double> distances_;
   FresnelPropagator<double> propagator_;
   mutable tbb::enumerable_thread_specific<Field<double>> fields_;
 };
 
 }  // namespace
 
-std::unique_ptr<const TrueLight> make_true_light(TruthModel model, const Telescope& telescope,
-                                                 const SensorDesign& design, int pupil_samples) {
-  if (model == TruthModel::extended) {
-    return std::make_unique<ExtendedLight>(telescope, design, pupil_samples);
+TrueLight::TrueLight(TruthModel model, const Telescope& telescope, const SensorDesign& design,
+                     int pupil_samples, const LightSource& source)
+    : mask_(pupil_mask(pupil_samples, telescope.central_obscuration)) {
+  const std::size_t count = design.planes.size();
+  source.validate(count);
+  std::vector<double> distances;
+  for (std::size_t plane = 0; plane < count; ++plane) {
+    const double centre = source.band(plane, count, telescope.wavelength).centre();
+    planes_.emplace_back();
+    for (const SpectralLine& line : source.lines(plane, count, telescope.wavelength)) {
+      const double phase_factor = source.aberration == ChromaticAberration::path
+                                      ? telescope.wavelength / line.wavelength
+                                      : 1.0;
+      planes_.back().push_back({distances.size(), phase_factor, line.weight});
+      distances.push_back(design.planes[plane] * (line.wavelength / centre));
+    }
   }
-  assert(pupil_samples == design.pupil_samples());
-  return std::make_unique<MatchedLight>(telescope, design);
+  if (model == TruthModel::extended) {
+    path_ = std::make_unique<ExtendedPath>(telescope, design, pupil_samples, distances);
+  } else {
+    assert(pupil_samples == design.pupil_samples());
+    path_ = std::make_unique<MatchedPath>(telescope, design, std::move(distances));
+  }
+}
+
+std::vector<Image<double>> TrueLight::images(const PhaseScreen& phase,
+                                             std::span<const std::size_t> wanted) const {
+  std::vector<Image<double>> images(wanted.size());
+  /// The lines of one field in the pupil, with the images that they are part of.
+  struct Part {
+    std::size_t image;
+    double weight;
+  };
+  std::map<double, std::pair<std::vector<std::size_t>, std::vector<Part>>> of_factor;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    for (const Line& line : planes_[wanted[i]]) {
+      auto& [distances, parts] = of_factor[line.phase_factor];
+      distances.push_back(line.distance);
+      parts.push_back({i, line.weight});
+    }
+  }
+  for (const auto& [factor, lines] : of_factor) {
+    const auto& [distances, parts] = lines;
+    path_->make_images(pupil_field(phase * factor, mask_), distances,
+                       [&images, &parts = parts](std::size_t i, const Image<double>& image) {
+                         Image<double>& sum = images[parts[i].image];
+                         if (sum.size() == 0) {
+                           sum = parts[i].weight * image;
+                         } else {
+                           sum += parts[i].weight * image;
+                         }
+                       });
+  }
+  return images;
 }
 
 }  // namespace nlcwfs

@@ -99,7 +99,7 @@ class Benchmark {
         seeing_(seeing_of(configuration, telescope_)),
         options_(simulation_options_of(configuration, "simulation.precision")),
         // Before the screens, which may take long.
-        design_(simulated_design(design_of(configuration), telescope_, options_.truth,
+        design_(simulated_design(design_of(configuration), telescope_, options_,
                                  nlcwfs::truth_samples(configuration))),
         threads_(thread_count()),
         screens_(screens_of(configuration, notes_, most_screens())),

@@ -38,6 +38,8 @@ std::string value_name(const ConfigurationKey& key) {
       return "LENGTH";
     case Kind::length_list:
       return "LENGTHS";
+    case Kind::bands:
+      return "BANDS";
     case Kind::domain:
       return "MIN:MAX";
     case Kind::axis:

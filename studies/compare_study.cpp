@@ -111,7 +111,7 @@ bool decides_on(const FinishedRun& run, std::string_view section, std::string_vi
 bool changes_the_comparison(std::string_view key) {
   return key.starts_with("telescope.") || key.starts_with("seeing.") ||
          key.starts_with("detector.") || key.starts_with("reconstruction.") ||
-         key.starts_with("objective.") || key == "simulation.truth" ||
+         key.starts_with("objective.") || key.starts_with("source.") || key == "simulation.truth" ||
          key == "simulation.pupil_samples";
 }
 
@@ -127,6 +127,13 @@ std::string canonical(const Configuration& configuration, const ConfigurationKey
       return fmt::format("{}", configuration.length(key.name));
     case Kind::length_list:
       return fmt::format("{}", fmt::join(configuration.lengths(key.name), ","));
+    case Kind::bands: {
+      std::string text;
+      for (const Band& band : configuration.bands(key.name)) {
+        text += fmt::format("{}:{},", band.shortest, band.longest);
+      }
+      return text;
+    }
     case Kind::time:
       return fmt::format("{}", *configuration.optional_time(key.name));
     case Kind::ramp:

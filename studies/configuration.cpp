@@ -93,6 +93,7 @@ std::string_view ConfigurationKey::unit_text() const {
   switch (kind) {
     case Kind::length:
     case Kind::length_list:
+    case Kind::bands:
       return "m";
     case Kind::time:
       return "s";
@@ -126,6 +127,11 @@ std::string ConfigurationKey::allowed() const {
     case Kind::length_list:
       return fmt::format("lengths{} in nm, um, mm, cm, m or km, separated by commas{}", range,
                          such_as);
+    case Kind::bands:
+      return fmt::format(
+          "SHORTEST:LONGEST{} in nm, um, mm, cm, m or km, or several separated by "
+          "commas{}",
+          range, such_as);
     case Kind::domain:
       if (element == Kind::choice) {
         return fmt::format("one or more of {}, separated by commas", fmt::join(choices, ", "));
@@ -179,6 +185,12 @@ bool ConfigurationKey::accepts(std::string_view value) const {
       return within(parse_length(value));
     case Kind::length_list:
       return list_within(parse_lengths(value));
+    case Kind::bands: {
+      const auto bands = parse_bands(value);
+      return bands && std::ranges::all_of(*bands, [this](const Band& band) {
+               return bounds.contain(band.shortest) && bounds.contain(band.longest);
+             });
+    }
     case Kind::domain: {
       const auto domain = parse_domain(value, parser_of(*this));
       if (!domain) return false;
@@ -356,6 +368,10 @@ std::optional<double> Configuration::optional_length(std::string_view key) const
 
 std::vector<double> Configuration::lengths(std::string_view key) const {
   return parse_lengths(text_of(key, Kind::length_list)).value();
+}
+
+std::vector<Band> Configuration::bands(std::string_view key) const {
+  return parse_bands(text_of(key, Kind::bands)).value_or(std::vector<Band>{});
 }
 
 std::optional<Domain> Configuration::domain(std::string_view key) const {

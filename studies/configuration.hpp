@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/light_source.hpp"
 #include "objectives/design_space.hpp"
 
 #include <cstdint>
@@ -21,6 +22,7 @@ enum class Kind {
   seed,         ///< 64-bit unsigned
   length,       ///< m
   length_list,  ///< m, separated by commas
+  bands,        ///< ranges of wavelengths in m, see parse_bands
   domain,       ///< what a search may choose, see parse_domain
   axis,         ///< what a sweep tries, see parse_axis
   orders,       ///< visiting orders, see parse_orders
@@ -115,6 +117,8 @@ class Configuration {
   std::optional<double> optional_length(std::string_view key) const;
   /// m
   std::vector<double> lengths(std::string_view key) const;
+  /// Empty where not set.
+  std::vector<Band> bands(std::string_view key) const;
   /// In SI, or nothing where not set.
   std::optional<Domain> domain(std::string_view key) const;
   /// In SI, or nothing where not set.

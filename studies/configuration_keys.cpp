@@ -142,6 +142,40 @@ std::vector<ConfigurationKey> make_keys() {
        .bounds = at_least(1e-3),
        .example = "25m"},
 
+      {.name = "source.bands",
+       .kind = Kind::bands,
+       .description =
+           "Wavelengths of the light, SHORTEST:LONGEST: one band of all planes, or one for each "
+           "plane in visiting order. A plane stands where the middle of its band has the Fresnel "
+           "number that telescope.wavelength has at the distance of sensor.planes. Not set: "
+           "telescope.wavelength alone.",
+       .bounds = above(0),
+       .example = "400nm:500nm,500nm:600nm,600nm:700nm,700nm:800nm"},
+      {.name = "source.division",
+       .kind = Kind::choice,
+       .default_text = "shared",
+       .description = "How one band is divided between the planes: each has all of it (shared, by "
+                      "beam splitters), or an equal part, shortest wavelengths first (split, by "
+                      "dichroics).",
+       .choices = {"shared", "split"}},
+      {.name = "source.wavelengths",
+       .kind = Kind::integer,
+       .default_text = "20",
+       .description = "How many wavelengths stand for a plane's band.",
+       .bounds = from_to(1, 1000)},
+      {.name = "source.weights",
+       .kind = Kind::number_list,
+       .description = "How much light each of the wavelengths has, shortest first. Not set: all "
+                      "the same.",
+       .bounds = at_least(0),
+       .example = "1,2,2,1"},
+      {.name = "source.aberration",
+       .kind = Kind::choice,
+       .default_text = "path",
+       .description = "What of the aberration is the same at every wavelength: its optical path in "
+                      "m, or its phase in rad.",
+       .choices = {"path", "phase"}},
+
       {.name = "screens.count",
        .kind = Kind::integer,
        .default_text = "16",
@@ -617,6 +651,7 @@ const std::vector<Preset>& presets() {
                                           {{"simulation.truth", "matched"},
                                            {"reconstruction.window", "4"},
                                            {"reconstruction.stopping", "rms_change"},
+                                           {"source.aberration", "phase"},
                                            {"sensor.planes", "-47km,47km,-180km,180km"}}}};
   return known;
 }

@@ -106,11 +106,11 @@ void require_verifiable_designs(const Configuration& configuration, const Design
 DesignSearch::DesignSearch(const Configuration& configuration)
     : telescope(telescope_of(configuration)),
       seeing(seeing_of(configuration, telescope)),
-      space(search_space_of(
-          configuration, telescope,
-          simulated_design(design_of(configuration), telescope,
-                           simulation_options_of(configuration, "search.precision").truth,
-                           truth_samples(configuration)))),
+      space(
+          search_space_of(configuration, telescope,
+                          simulated_design(design_of(configuration), telescope,
+                                           simulation_options_of(configuration, "search.precision"),
+                                           truth_samples(configuration)))),
       options(search_options_of(configuration, space.sub_spaces())),
       trial(trial_of(configuration, "search.precision", notes, space.varies("pupil_pixels"))),
       verification(verification_trial_of(configuration, space.varies("pupil_pixels"))),
@@ -127,9 +127,9 @@ DesignSearch::DesignSearch(const Configuration& configuration)
     if (const auto point = space.point_of(known)) options.starts.push_back(*point);
   }
   if (configuration.integer("search.cheap_budget") == 0) return;
-  SensorDesign cheap = simulated_design(
-      design_of(configuration), telescope,
-      simulation_options_of(configuration, "search.precision").truth, truth_samples(configuration));
+  SensorDesign cheap = simulated_design(design_of(configuration), telescope,
+                                        simulation_options_of(configuration, "search.precision"),
+                                        truth_samples(configuration));
   cheap.reconstruction.window = rounded_window(
       std::max(configuration.number("search.cheap_window") * cheap.reconstruction.window,
                cheap.detector.window),

@@ -196,8 +196,9 @@ Configuration law_conditions(const Configuration& configuration) {
   Configuration conditions;
   for (const ConfigurationKey& key : configuration_keys()) {
     const std::string_view section = std::string_view(key.name).substr(0, key.name.find('.'));
-    constexpr std::array searched{"telescope",  "screens",   "detector", "reconstruction",
-                                  "simulation", "objective", "search",   "verify"};
+    constexpr std::array searched{"telescope", "source",         "screens",
+                                  "detector",  "reconstruction", "simulation",
+                                  "objective", "search",         "verify"};
     if (!configuration.is_set(key.name) ||
         (std::ranges::count(searched, section) == 0 && key.name != "seeing.outer_scale")) {
       continue;

@@ -84,6 +84,14 @@ void run_scale(const CommandLine& command_line) {
           }));
     }
   }
+  if (configuration.is_set("source.bands")) {
+    std::vector<std::string> bands;
+    for (const Band& band : configuration.bands("source.bands")) {
+      const double ratio = target.wavelength / telescope.wavelength;
+      bands.push_back(fmt::format("{}:{}", band.shortest * ratio, band.longest * ratio));
+    }
+    set("source.bands", fmt::format("{}", fmt::join(bands, ",")));
+  }
   // Equal designs are equal in waves, and so are their costs.
   set("objective.wfe_scale", fmt::format("{}", configuration.length("objective.wfe_scale") *
                                                    target.wavelength / telescope.wavelength));

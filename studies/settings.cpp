@@ -244,7 +244,8 @@ void set_trade_defaults(Configuration& configuration) {
     design.detector.pupil_pixels /= divisor;
     if (design.detector.pupil_pixels * divisor != configured.detector.pupil_pixels) continue;
     try {
-      simulated_design(design, telescope, TruthModel::extended, truth_samples(configuration));
+      simulated_design(design, telescope, simulation_options_of(configuration, "search.precision"),
+                       truth_samples(configuration));
       suitable.push_back(design.detector.pupil_pixels);
     } catch (const InputError&) {
       // Its windows are no whole numbers of these pixels. Where the configured design itself does
@@ -461,13 +462,28 @@ int truth_samples(const Configuration& configuration) {
                                                          : "simulation.pupil_samples");
 }
 
+LightSource light_source_of(const Configuration& configuration) {
+  LightSource source{
+      .bands = configuration.bands("source.bands"),
+      .is_split = configuration.choice("source.division") == "split",
+      .wavelengths = configuration.integer("source.wavelengths"),
+      .aberration = choice_of<ChromaticAberration>(
+          configuration, "source.aberration",
+          {{"path", ChromaticAberration::path}, {"phase", ChromaticAberration::phase}})};
+  if (configuration.is_set("source.weights")) {
+    source.weights = configuration.numbers("source.weights");
+  }
+  return source;
+}
+
 SimulationOptions simulation_options_of(const Configuration& configuration,
                                         std::string_view precision_key) {
   return {.truth = is_matched(configuration) ? TruthModel::matched : TruthModel::extended,
           .precision = choice_of<Precision>(
               configuration, precision_key,
               {{"double", Precision::double_precision}, {"single", Precision::single_precision}}),
-          .noise_seed = configuration.seed("screens.seed")};
+          .noise_seed = configuration.seed("screens.seed"),
+          .source = light_source_of(configuration)};
 }
 
 std::vector<PhaseScreen> screens_of(const Configuration& configuration,
@@ -482,8 +498,7 @@ DesignTrial trial_of(const Configuration& configuration, std::string_view precis
   const SimulationOptions options = simulation_options_of(configuration, precision_key);
   // Before the screens, which may take long.
   DesignCost cost = cost_of(configuration, pixels_vary);
-  simulated_design(design_of(configuration), telescope, options.truth,
-                   truth_samples(configuration));
+  simulated_design(design_of(configuration), telescope, options, truth_samples(configuration));
   return {conditions_of(configuration, telescope, options,
                         [&](const Seeing& seeing) {
                           return screens_in(configuration, telescope, seeing, notes);

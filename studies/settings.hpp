@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/light_source.hpp"
 #include "model/seeing.hpp"
 #include "model/sensor_design.hpp"
 #include "model/simulation.hpp"
@@ -62,6 +63,9 @@ void set_design(Configuration& configuration, const SensorDesign& design, const 
 
 /// Samples of the true field across the pupil; a matched truth has the detector's.
 int truth_samples(const Configuration& configuration);
+
+/// The section source.
+LightSource light_source_of(const Configuration& configuration);
 
 /// @param precision_key  the key of the reconstruction's precision: simulation.precision, or
 ///                       search.precision for a search

@@ -80,11 +80,10 @@ bool pixels_vary(const Configuration& configuration) {
 Task::Task(const Configuration& configuration)
     : telescope(telescope_of(configuration)),
       seeing(seeing_of(configuration, telescope)),
-      grid(sweep_grid_of(
-          configuration, telescope,
-          simulated_design(design_of(configuration), telescope,
-                           simulation_options_of(configuration, "search.precision").truth,
-                           truth_samples(configuration)))),
+      grid(sweep_grid_of(configuration, telescope,
+                         simulated_design(design_of(configuration), telescope,
+                                          simulation_options_of(configuration, "search.precision"),
+                                          truth_samples(configuration)))),
       trial(trial_of(configuration, "search.precision", notes, pixels_vary(configuration))),
       verification(verification_trial_of(configuration, pixels_vary(configuration))),
       metrics(metrics_of(trial.cost().operation)),

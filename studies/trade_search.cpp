@@ -169,11 +169,11 @@ std::size_t TradeResult::standing_count() const {
 TradeSearch::TradeSearch(const Configuration& configuration)
     : telescope(telescope_of(configuration)),
       seeing(seeing_of(configuration, telescope)),
-      space(search_space_of(
-          configuration, telescope,
-          simulated_design(design_of(configuration), telescope,
-                           simulation_options_of(configuration, "search.precision").truth,
-                           truth_samples(configuration)))),
+      space(
+          search_space_of(configuration, telescope,
+                          simulated_design(design_of(configuration), telescope,
+                                           simulation_options_of(configuration, "search.precision"),
+                                           truth_samples(configuration)))),
       objectives(trade_objectives_of(configuration)),
       options(pareto_options_of(configuration)),
       trial(trial_of(configuration, "search.precision", notes, space.varies("pupil_pixels"))),

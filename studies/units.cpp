@@ -126,6 +126,18 @@ std::optional<std::vector<double>> parse_lengths(std::string_view text) {
   return parse_list(text, parse_length);
 }
 
+std::optional<std::vector<Band>> parse_bands(std::string_view text) {
+  std::vector<Band> bands;
+  for (const std::string_view part : split(text, ',')) {
+    const auto ends = split_once(part, ':');
+    const auto shortest = parse_length(ends ? ends->first : part);
+    const auto longest = parse_length(ends ? ends->second : part);
+    if (!shortest || !longest || *shortest > *longest) return std::nullopt;
+    bands.push_back({*shortest, *longest});
+  }
+  return bands;
+}
+
 std::optional<Domain> parse_domain(std::string_view text, const ValueParser& parse_value) {
   const std::vector<std::string_view> parts = split(text, ':');
   if (parts.size() == 1) return parse_list(text, parse_value);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/light_source.hpp"
 #include "objectives/design_space.hpp"
 
 #include <cstdint>
@@ -35,6 +36,9 @@ std::optional<double> parse_time(std::string_view text);
 
 /// Lengths in m, separated by commas: -47km,47km. At least one, none empty.
 std::optional<std::vector<double>> parse_lengths(std::string_view text);
+
+/// Ranges of wavelengths in m, separated by commas: 500nm:549nm,632.8nm. At least one, none empty.
+std::optional<std::vector<Band>> parse_bands(std::string_view text);
 
 /// Reads one value, such as parse_length.
 using ValueParser = std::function<std::optional<double>(std::string_view)>;

@@ -15,7 +15,7 @@ ImageCache::SharedImage image(double value) {
 }
 
 ImageCache::Key plane_key(double plane) {
-  return {.screen = 0, .plane = plane, .width = 4, .pupil_pixels = 2};
+  return {.screen = 0, .plane = plane, .width = 4, .pupil_pixels = 2, .band = {500e-9, 600e-9}};
 }
 
 TEST(ImageCache, GivesBackWhatItHoldsUnderEachPartOfTheKey) {
@@ -33,6 +33,9 @@ TEST(ImageCache, GivesBackWhatItHoldsUnderEachPartOfTheKey) {
   EXPECT_EQ(cache.find(other), nullptr);
   other = key;
   other.pupil_pixels = 4;
+  EXPECT_EQ(cache.find(other), nullptr);
+  other = key;
+  other.band.longest = 700e-9;
   EXPECT_EQ(cache.find(other), nullptr);
 }
 
