@@ -58,7 +58,9 @@ GerchbergSaxton<Real>::GerchbergSaxton(const Telescope& telescope, const SensorD
 }
 
 template <class Real>
-Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>> images) const {
+Reconstruction GerchbergSaxton<Real>::reconstruct(
+    std::span<const Image<double>> images,
+    const std::function<void(const Field<double>& pupil)>& observer) const {
   assert(images.size() == design_.planes.size());
   const ReconstructionOptions& options = design_.reconstruction;
   Workspace& workspace = workspaces_.local();
@@ -106,6 +108,7 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(std::span<const Image<double>>
     }
     hop(measured.size(), pupil_rows);
     result.pupil_field = get_pupil(field);
+    if (observer) observer(result.pupil_field);
 
     result.changes.push_back(loop_change.update(result.pupil_field) * length_per_radian);
     result.converged = result.changes.back() < options.tolerance;

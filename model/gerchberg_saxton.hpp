@@ -7,6 +7,7 @@
 #include "model/sensor_design.hpp"
 #include "model/telescope.hpp"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,7 +43,10 @@ class GerchbergSaxton {
   /// May be called from many threads.
   /// @param images  one per plane in visiting order, detector width x width, mean intensity per
   ///                pixel in units of the unaberrated pupil's; below 0 counts as 0
-  Reconstruction reconstruct(std::span<const Image<double>> images) const;
+  /// @param observer  called with the pupil field after each loop; may be empty
+  Reconstruction reconstruct(
+      std::span<const Image<double>> images,
+      const std::function<void(const Field<double>& pupil)>& observer = {}) const;
 
   /// The pupil as sampled by the reconstruction, pupil_pixels x oversampling samples across.
   const PupilMask& mask() const { return mask_; }

@@ -61,13 +61,18 @@ class Experiment {
     const std::vector<Image<double>> images = detector_images(light, screen);
 
     const auto start = Clock::now();
-    const Reconstruction reconstruction = reconstructor_.reconstruct(images);
+    ScreenPerformance result;
+    const auto follow = [&](const Field<double>& pupil) {
+      result.residual_after_loops.push_back(
+          measured(pupil, reconstructor_.unwrapper().unwrap(pupil), truth).residual_wfe);
+    };
+    const Reconstruction reconstruction = options_.follow_loops
+                                              ? reconstructor_.reconstruct(images, follow)
+                                              : reconstructor_.reconstruct(images);
     const Image<double> phase = reconstructor_.unwrapper().unwrap(reconstruction.pupil_field);
     const std::chrono::duration<double> elapsed = Clock::now() - start;
 
-    ScreenPerformance result;
-    result.wavefront = measure_wavefront(reconstruction.pupil_field, phase, reconstructor_.mask(),
-                                         truth, truth_mask_, telescope_.wavelength);
+    result.wavefront = measured(reconstruction.pupil_field, phase, truth);
     result.converged = reconstruction.converged;
     result.loops = reconstruction.loops;
     result.fractional_loops = reconstruction.fractional_loops;
@@ -81,6 +86,12 @@ class Experiment {
   }
 
  private:
+  WavefrontMetrics measured(const Field<double>& pupil, const Image<double>& phase,
+                            const PhaseScreen& truth) const {
+    return measure_wavefront(pupil, phase, reconstructor_.mask(), truth, truth_mask_,
+                             telescope_.wavelength);
+  }
+
   /// The light of a unit-amplitude pupil, in units of intensity times detector pixels.
   double pupil_energy() const {
     return double(truth_mask_.count()) / (samples_per_pixel_ * samples_per_pixel_);
@@ -167,11 +178,13 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
     }
   }
   const int pixels = design.detector.pupil_pixels;
-  if (options.truth == TruthModel::matched) {
+  if (options.truth != TruthModel::extended) {
     // The detector's own window is not used; one that always fits leaves errors to the other's key.
     design.detector.window = 1.0;
     design.validate(telescope);
     design.detector.window = design.reconstruction.window;
+  }
+  if (options.truth == TruthModel::matched) {
     if (truth_samples != pixels) {
       throw InputError("simulation.pupil_samples", truth_samples,
                        fmt::format("a matched truth has the detector's {} samples", pixels));
@@ -193,6 +206,11 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
                                  "{}, must be a multiple or a divisor of "
                                  "simulation.pupil_samples, which is {}",
                                  design.pupil_samples(), truth_samples));
+  }
+  if (options.truth == TruthModel::periodic) {
+    validate_grid_window("reconstruction.window", design.reconstruction.window,
+                         "simulation.pupil_samples", truth_samples);
+    return design;
   }
   validate_grid_window("detector.window", design.detector.window, "simulation.pupil_samples",
                        truth_samples);

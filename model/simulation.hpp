@@ -23,10 +23,12 @@ struct SimulationOptions {
   Precision precision = Precision::double_precision;
   std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
   LightSource source = {};
+  /// Fills ScreenPerformance::residual_after_loops, which costs an unwrapping for each loop.
+  bool follow_loops = false;
 };
 
-/// A design as it is simulated: with a matched truth the detector is as wide as the reconstruction
-/// grid.
+/// A design as it is simulated: with a matched or periodic truth the detector is as wide as the
+/// reconstruction grid.
 /// @param truth_samples  of the true field across the diameter
 /// @throws InputError where the design is not valid, or does not fit the truth's samples or the
 ///         source

@@ -56,12 +56,14 @@ class ExtendedPath final : public LightPath {
   mutable tbb::enumerable_thread_specific<Buffers> buffers_;
 };
 
-class MatchedPath final : public LightPath {
+class PeriodicPath final : public LightPath {
  public:
-  MatchedPath(const Telescope& telescope, const SensorDesign& design, std::vector<double> distances)
+  PeriodicPath(const Telescope& telescope, const SensorDesign& design, int pupil_samples,
+               std::vector<double> distances)
       : distances_(std::move(distances)),
-        propagator_(design.grid_width(), telescope.diameter / design.pupil_samples(),
-                    telescope.wavelength),
+        samples_per_pixel_(pupil_samples / design.detector.pupil_pixels),
+        propagator_(design.detector.width() * samples_per_pixel_,
+                    telescope.diameter / pupil_samples, telescope.wavelength),
         fields_(
             [samples = propagator_.samples()] { return padded_lines<double>(samples, samples); }) {}
 
@@ -75,12 +77,13 @@ class MatchedPath final : public LightPath {
       field.setZero();
       field.block(pupil_rows.first, pupil_rows.first, pupil.rows(), pupil.cols()) = pupil;
       propagator_.propagate(field, distances_[wanted[i]]);
-      take(i, integrate_pixels(field.leftCols(width), 1));
+      take(i, integrate_pixels(field.leftCols(width), samples_per_pixel_));
     }
   }
 
  private:
   std::vector<double> distances_;
+  int samples_per_pixel_;
   FresnelPropagator<double> propagator_;
   mutable tbb::enumerable_thread_specific<Field<double>> fields_;
 };
@@ -107,8 +110,8 @@ TrueLight::TrueLight(TruthModel model, const Telescope& telescope, const SensorD
   if (model == TruthModel::extended) {
     path_ = std::make_unique<ExtendedPath>(telescope, design, pupil_samples, distances);
   } else {
-    assert(pupil_samples == design.pupil_samples());
-    path_ = std::make_unique<MatchedPath>(telescope, design, std::move(distances));
+    assert(model == TruthModel::periodic || pupil_samples == design.pupil_samples());
+    path_ = std::make_unique<PeriodicPath>(telescope, design, pupil_samples, std::move(distances));
   }
 }
 

@@ -17,7 +17,9 @@ namespace nlcwfs {
 /// Where the sensor's data come from.
 enum class TruthModel {
   extended,  ///< light on an infinite plane, sampled finer than the detector: wrap-free
-  matched    ///< the reconstructor's own periodic grid, all of it measured (the paper's way)
+  matched,   ///< the reconstructor's own periodic grid, all of it measured (the paper's way)
+  periodic   ///< a periodic grid as wide as the reconstructor's, all of it measured, sampled finer
+             ///< than the detector (the paper's way to study pixels)
 };
 
 /// How light of one wavelength gets from the pupil to the detectors.

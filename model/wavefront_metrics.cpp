@@ -58,6 +58,14 @@ double field_estimated_strehl(const Field<double>& field, const Field<double>& t
   return energies > 0.0 ? std::norm(overlap) / energies : 0.0;
 }
 
+double recovered_share(const Image<double>& phase, const Image<double>& truth,
+                       const PupilMask& mask) {
+  const Image<double> weight = mask.cast<double>();
+  const Image<double> centred = weight * (truth - (weight * truth).sum() / weight.sum());
+  const double power = centred.square().sum();
+  return power > 0.0 ? (centred * mask.select(phase, 0.0)).sum() / power : 0.0;
+}
+
 Image<double> resample_over_mask(const Image<double>& phase, const PupilMask& mask, int samples) {
   const auto size = static_cast<int>(phase.rows());
   const Image<double> weight = mask.cast<double>();
@@ -106,7 +114,8 @@ WavefrontMetrics measure_wavefront(const Field<double>& field, const Image<doubl
   return {.residual_wfe = length_per_radian * piston_free_rms(unwrapped - sampled_truth, mask),
           .wrapped_wfe = length_per_radian * wrapped_phase_rms(field, true_field, mask),
           .total_wfe = length_per_radian * piston_free_rms(full_resolution - truth, truth_mask),
-          .field_strehl = field_estimated_strehl(field, true_field, mask)};
+          .field_strehl = field_estimated_strehl(field, true_field, mask),
+          .recovered_share = recovered_share(unwrapped, sampled_truth, mask)};
 }
 
 }  // namespace nlcwfs

@@ -11,7 +11,8 @@ struct WavefrontMetrics {
   double wrapped_wfe = 0.0;   ///< the same of arg(E_rec conj(E_true)): blind to 2 pi errors
   double total_wfe = 0.0;  ///< residual at the truth's full resolution: what the reconstruction's
                            ///< samples cannot resolve counts too
-  double field_strehl = 0.0;  ///< field-estimated Strehl ratio, see field_estimated_strehl()
+  double field_strehl = 0.0;     ///< field-estimated Strehl ratio, see field_estimated_strehl()
+  double recovered_share = 0.0;  ///< see recovered_share()
 };
 
 /// RMS over the mask of `phase` (rad), mean removed.
@@ -27,6 +28,12 @@ double wrapped_phase_rms(const Field<double>& field, const Field<double>& refere
 /// Source: Banet et al. 2017, as used by Letchev et al. 2022, section 4.
 double field_estimated_strehl(const Field<double>& field, const Field<double>& truth,
                               const PupilMask& mask);
+
+/// How much of the true phase is in the reconstructed one: the regression coefficient
+/// sum (rec - <rec>) (true - <true>) / sum (true - <true>)^2 over the mask; 1 is all of it. Of a
+/// sinusoid it is the recovered amplitude over the true one. 0 where the truth is flat.
+double recovered_share(const Image<double>& phase, const Image<double>& truth,
+                       const PupilMask& mask);
 
 /// Brings a phase known over `mask` to another sampling of the same diameter: averaged over blocks
 /// where that is coarser, interpolated linearly between samples of the mask where it is finer.

@@ -298,8 +298,9 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::choice,
        .default_text = "extended",
        .description = "How the measurements are made: free of wrap-around and on a grid of its own "
-                      "(extended), or on the reconstruction's own periodic grid (matched).",
-       .choices = {"extended", "matched"}},
+                      "(extended), on the reconstruction's own periodic grid (matched), or on one "
+                      "as wide with simulation.pupil_samples, binned to the pixels (periodic).",
+       .choices = {"extended", "matched", "periodic"}},
       {.name = "simulation.pupil_samples",
        .kind = Kind::integer,
        .default_text = "128",

@@ -478,7 +478,10 @@ LightSource light_source_of(const Configuration& configuration) {
 
 SimulationOptions simulation_options_of(const Configuration& configuration,
                                         std::string_view precision_key) {
-  return {.truth = is_matched(configuration) ? TruthModel::matched : TruthModel::extended,
+  return {.truth = choice_of<TruthModel>(configuration, "simulation.truth",
+                                         {{"extended", TruthModel::extended},
+                                          {"matched", TruthModel::matched},
+                                          {"periodic", TruthModel::periodic}}),
           .precision = choice_of<Precision>(
               configuration, precision_key,
               {{"double", Precision::double_precision}, {"single", Precision::single_precision}}),
@@ -534,8 +537,9 @@ DesignTrial verification_trial_of(const Configuration& configuration, bool pixel
   options.precision = Precision::double_precision;
   options.noise_seed = seed;
   if (factor > 1) options.truth = TruthModel::extended;
-  const double window =
-      configuration.number(is_matched(configuration) ? "reconstruction.window" : "detector.window");
+  const double window = configuration.number(configuration.choice("simulation.truth") == "extended"
+                                                 ? "detector.window"
+                                                 : "reconstruction.window");
   const double search_width = window * truth_samples(configuration);
   if (factor * search_width > max_grid_width) {
     throw InputError(

@@ -339,6 +339,60 @@ TEST(Simulation, AMatchedTruthIsReachedAndAnExtendedOneIsNot) {
   EXPECT_GT(residual(TruthModel::extended), 3.0 * residual(TruthModel::matched));
 }
 
+TEST(Simulation, APeriodicTruthOfThePixelsSamplingIsTheMatchedOne) {
+  const Performance matched =
+      evaluate(matched_design(), turbulence(2), {.truth = TruthModel::matched});
+  expect_equal(evaluate(matched_design(), turbulence(2), {.truth = TruthModel::periodic}), matched);
+}
+
+TEST(Simulation, APeriodicTruthIsBinnedToThePixels) {
+  SensorDesign design = matched_design();
+  design.detector.pupil_pixels = screen_samples / 4;
+  const Performance binned = evaluate(design, turbulence(2), {.truth = TruthModel::periodic});
+  for (const ScreenPerformance& screen : binned.screens) {
+    // All light is measured, and the pixels are too coarse to see all of the wavefront.
+    for (const double energy : screen.captured_energy) EXPECT_NEAR(energy, 1.0, 1e-9);
+    EXPECT_GT(screen.wavefront.total_wfe, screen.wavefront.residual_wfe);
+  }
+  design.detector.pupil_pixels = 24;
+  EXPECT_THAT(
+      message_of([&] { (void)evaluate(design, turbulence(1), {.truth = TruthModel::periodic}); }),
+      HasSubstr("a multiple of detector.pupil_pixels"));
+}
+
+TEST(Simulation, FollowsTheResidualFromLoopToLoop) {
+  const SimulationOptions followed{.follow_loops = true};
+  const Performance with = evaluate(small_design(), turbulence(3), followed);
+  const Performance without = evaluate(small_design(), turbulence(3));
+  expect_equal(with, without);
+  for (std::size_t i = 0; i < with.screens.size(); ++i) {
+    const ScreenPerformance& screen = with.screens[i];
+    ASSERT_EQ(screen.residual_after_loops.size(), static_cast<std::size_t>(screen.loops));
+    EXPECT_EQ(screen.residual_after_loops.back(), screen.wavefront.residual_wfe);
+    EXPECT_GT(screen.residual_after_loops.front(), screen.residual_after_loops.back());
+    EXPECT_TRUE(without.screens[i].residual_after_loops.empty());
+  }
+}
+
+TEST(Simulation, BroadbandLightCostsAccuracy) {
+  const auto residual = [](const LightSource& source) {
+    return evaluate(small_design(), turbulence(4), {.source = source})
+        .mean_of(performance_metric("residual_wfe_nm"))
+        .mean;
+  };
+  LightSource narrow{.bands = {{526e-9, 538e-9}}, .wavelengths = 4};
+  LightSource wide{.bands = {{432e-9, 632e-9}}, .wavelengths = 8};
+  EXPECT_LT(residual({}), residual(narrow));
+  EXPECT_LT(residual(narrow), residual(wide));
+}
+
+TEST(Simulation, RefusesASourceThatDoesNotSuitThePlanes) {
+  const LightSource source{.bands = {{500e-9, 600e-9}, {600e-9, 700e-9}}};
+  EXPECT_THAT(
+      message_of([&] { (void)evaluate(small_design(), turbulence(1), {.source = source}); }),
+      HasSubstr("one for each of the 4 planes"));
+}
+
 TEST(Simulation, AFinerTruthOfTheSameDesignEndsNearby) {
   // As a verification does: the screens' own block means are what the coarser truth sees.
   SensorDesign design = small_design();

@@ -122,6 +122,22 @@ TEST(WavefrontMetrics, StrehlOfRandomErrorsIsThatOfMarechal) {
   }
 }
 
+TEST(RecoveredShare, IsThatOfTheTruthInTheReconstruction) {
+  const PupilMask mask = pupil_mask(64, 0.2);
+  const PhaseScreen truth = random_phase(64, 1.0) + 3.0;
+  for (const double share : {-0.5, 0.0, 0.8, 1.0}) {
+    EXPECT_NEAR(recovered_share(share * truth + 5.0, truth, mask), share, 1e-12);
+  }
+  // What has nothing to do with the truth counts little: a regression of noise over n samples.
+  const double error = 1.0 / std::sqrt(double(mask.count()));
+  EXPECT_NEAR(recovered_share(truth + tilt(64, 1.0), truth, mask), 1.0, 4.0 * error);
+  EXPECT_EQ(recovered_share(truth, PhaseScreen::Constant(64, 64, 2.0), mask), 0.0);
+  // Nor does what is outside the pupil.
+  PhaseScreen outside = truth;
+  outside(0, 0) = 1e9;
+  EXPECT_NEAR(recovered_share(outside, truth, mask), 1.0, 1e-12);
+}
+
 TEST(FieldEstimatedStrehl, DoesNotDependOnBrightnessAndPunishesUnevenAmplitudes) {
   const PupilMask mask = pupil_mask(64, 0.2);
   const Field<double> truth = pupil_field(random_phase(64, 1.0), mask);
