@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -48,8 +49,9 @@ std::size_t point_count(const std::vector<GridAxis>& axes, std::string_view sect
 }  // namespace
 
 DesignGrid::DesignGrid(const Telescope& telescope, const DesignSpaceOptions& options,
-                       const std::vector<std::string>& axes)
-    : plane_counts_(options.plane_counts),
+                       const std::vector<std::string>& axes, bool has_crossed_pairs)
+    : has_crossed_pairs_(has_crossed_pairs),
+      plane_counts_(options.plane_counts),
       orders_(options.orders),
       axes_(axes_of(options, axes)),
       size_(point_count(axes_, options.section)),
@@ -79,11 +81,15 @@ std::optional<SensorDesign> DesignGrid::design(std::size_t point) const {
 
   const std::size_t variables = sub_spaces_[sub_space].variables.size();
   SearchPoint found{static_cast<int>(sub_space), Eigen::VectorXd(variables)};
+  double near = 0.0;
+  double far = HUGE_VAL;
   for (std::size_t variable = 0; variable < variables; ++variable) {
     const std::string name = space_.name(found.sub_space, variable);
     const auto axis = find_axis(name);
     assert(axis);
     std::size_t place = places[*axis];
+    if (name == pair_names[0]) near = axes_[*axis].values[place];
+    if (name == pair_names[1]) far = axes_[*axis].values[place];
     if (name == "order") {
       if (orders_[place].size() != planes) return std::nullopt;
       // The space counts the orders of each number of planes on their own.
@@ -93,6 +99,7 @@ std::optional<SensorDesign> DesignGrid::design(std::size_t point) const {
     }
     found.x[Eigen::Index(variable)] = double(place);
   }
+  if (near > far && !has_crossed_pairs_) return std::nullopt;
   return space_.design(found);
 }
 

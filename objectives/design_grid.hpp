@@ -27,16 +27,18 @@ struct GridDesign {
 ///
 /// A design does not depend on axes that it has no use for: the far pair's distance where there are
 /// two planes, the order where its number of planes has only one. There is no design where the
-/// order is one of another number of planes.
+/// order is one of another number of planes, and none where pairs are crossed and shall not be.
 class DesignGrid {
  public:
   static constexpr std::size_t most_points = 1'000'000;
 
   /// @param options  its domains are lists; in a symmetric layout each number of planes has orders
   /// @param axes     names, outermost first; what has several values must be among them
+  /// @param has_crossed_pairs  whether there are designs at points whose z_near is above their
+  ///                           z_far, where both are axes
   /// @throws InputError where there are more than most_points, or DesignSpace refuses the options
   DesignGrid(const Telescope& telescope, const DesignSpaceOptions& options,
-             const std::vector<std::string>& axes);
+             const std::vector<std::string>& axes, bool has_crossed_pairs = true);
 
   const DesignSpace& space() const { return space_; }
   const std::vector<GridAxis>& axes() const { return axes_; }
@@ -57,6 +59,7 @@ class DesignGrid {
   /// The axis of a name; nothing where there is none.
   std::optional<std::size_t> find_axis(std::string_view name) const;
 
+  bool has_crossed_pairs_;
   std::vector<int> plane_counts_;
   std::vector<VisitingOrder> orders_;
   std::vector<GridAxis> axes_;

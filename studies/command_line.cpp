@@ -253,6 +253,7 @@ int parse_threads(const std::string& value) {
 const std::vector<Command>& commands() {
   static const std::vector<Command> known{
       {"evaluate", "measure one design: wavefront error, loops and time with standard errors"},
+      {"convergence", "follow one design's residual wavefront error from loop to loop"},
       {"screens", "make phase screens: a FITS cube and its statistics"},
       {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
       {"sweep", "try every design of a grid: maps of all figures, and the best, verified", true},

@@ -509,6 +509,12 @@ std::vector<ConfigurationKey> make_keys() {
             "set is an axis of its grid; distances that are not are those of "
             "sensor.planes, what else is not set is not varied.",
         .choices = {"symmetric", "free"}},
+       {.name = "sweep.crossed_pairs",
+        .kind = Kind::choice,
+        .default_text = "kept",
+        .description = "Points whose z_near is above their z_far: the same planes in another "
+                       "visiting order, kept or left out.",
+        .choices = {"kept", "left_out"}},
        {.name = "sweep.plane_count",
         .kind = Kind::axis,
         .description = "Numbers of planes. Not set: as many as sensor.planes, and in a free layout "

@@ -11,6 +11,9 @@ namespace nlcwfs {
 /// One design's performance on the configured screens.
 void run_evaluate(const CommandLine& command_line);
 
+/// How one design's wavefront error falls from loop to loop.
+void run_convergence(const CommandLine& command_line);
+
 /// The best design of the configured search, verified on fresh screens beside the baseline.
 void run_optimize(const CommandLine& command_line);
 

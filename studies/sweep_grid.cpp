@@ -64,7 +64,7 @@ DesignGrid GridBuilder::grid(const Telescope& telescope) {
     throw InputError("sweep.order", configuration_.value_text("sweep.order"),
                      "is for sweep.layout = symmetric; a free layout is visited as numbered");
   }
-  return {telescope, options_, axes_};
+  return {telescope, options_, axes_, configuration_.choice("sweep.crossed_pairs") == "kept"};
 }
 
 void GridBuilder::read_axes() {

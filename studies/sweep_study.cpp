@@ -337,7 +337,7 @@ std::string points_table(const Task& task, const std::vector<const Outcome*>& po
     const Outcome* outcome = points[point];
     if (outcome == nullptr || !outcome->failure.empty()) {
       for (std::size_t i = 0; i < 3 + 2 * task.metrics.size(); ++i) table.add("");
-      table.add(outcome == nullptr ? "the order is one of another number of planes"
+      table.add(outcome == nullptr ? "left out, or the order is one of another number of planes"
                                    : outcome->failure);
       continue;
     }

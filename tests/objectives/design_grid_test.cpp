@@ -127,6 +127,20 @@ TEST(DesignGrid, HasNoDesignForTheOrderOfAnotherNumberOfPlanes) {
   EXPECT_THAT(grid.distinct_designs(), SizeIs(1 + 2 + 2));
 }
 
+TEST(DesignGrid, LeavesOutCrossedPairsWhereItIsTold) {
+  const Values values{20e3, 50e3, 120e3};
+  const DesignSpaceOptions options{.plane_counts = {4},
+                                   .orders = {{1, 2, 3, 4}},
+                                   .domains = {{"z_near", values}, {"z_far", values}},
+                                   .section = "sweep"};
+  const DesignGrid grid(paper, options, {"z_near", "z_far"}, false);
+  for (std::size_t point = 0; point < grid.size(); ++point) {
+    const std::vector<std::size_t> places = grid.places(point);
+    EXPECT_EQ(grid.design(point).has_value(), places[0] <= places[1]);
+  }
+  EXPECT_THAT(grid.distinct_designs(), SizeIs(6));
+}
+
 TEST(DesignGrid, PlacesFreePlanesOneByOne) {
   const DesignGrid grid(
       paper,

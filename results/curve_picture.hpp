@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nlcwfs {
+
+/// One line of a curve picture.
+struct Curve {
+  std::string label = {};  ///< empty = not in the key
+  std::vector<double> x = {};
+  std::vector<double> y = {};       ///< as many; NaN where there is no value
+  std::vector<double> spread = {};  ///< of each y, drawn as bars; none = no bars
+  int colour = 0;                   ///< there are 5 that are distinct for the colour-blind
+  bool is_pale = false;             ///< for what others are the mean of
+};
+
+/// Quantities over another one.
+struct CurvePicture {
+  std::string title;
+  std::string x_label;  ///< ends with the unit
+  std::string y_label;  ///< ends with the unit
+  std::vector<Curve> curves;
+  bool has_log_x = false;
+  bool has_log_y = false;
+};
+
+/// Draws a picture with gnuplot, as SVG and as PNG. What is there already is overwritten.
+/// @param stem  the files' path without .svg and .png
+/// @return why there is no picture (gnuplot is not installed, fails, or there is nothing to draw);
+///         nothing where there is one
+std::optional<std::string> write_picture(const CurvePicture& picture,
+                                         const std::filesystem::path& stem);
+
+}  // namespace nlcwfs
