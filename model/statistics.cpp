@@ -17,4 +17,11 @@ MeanAndError mean_and_standard_error(std::span<const double> values) {
   return {mean, std::sqrt(squares / (static_cast<double>(count) * static_cast<double>(count - 1)))};
 }
 
+MeanAndError standard_deviation_and_error(std::span<const double> values) {
+  assert(values.size() >= 2);
+  const auto count = static_cast<double>(values.size());
+  const double deviation = mean_and_standard_error(values).standard_error * std::sqrt(count);
+  return {deviation, deviation / std::sqrt(2.0 * (count - 1.0))};
+}
+
 }  // namespace nlcwfs

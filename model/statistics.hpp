@@ -15,4 +15,9 @@ struct MeanAndError {
 /// @pre values is not empty
 MeanAndError mean_and_standard_error(std::span<const double> values);
 
+/// The standard deviation s of independent values (over n - 1) in place of a mean, with its own
+/// standard error s / sqrt(2 (n - 1)), which holds for normal ones.
+/// @pre there are at least 2
+MeanAndError standard_deviation_and_error(std::span<const double> values);
+
 }  // namespace nlcwfs

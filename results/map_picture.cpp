@@ -145,11 +145,18 @@ std::string DrawnAxis::script(std::string_view name) const {
                               fmt::join(tics, ", "));
 }
 
+std::string rows_of(const std::vector<PicturePoint>& points) {
+  std::string rows;
+  for (const PicturePoint& point : points) rows += fmt::format("{} {}\n", point.x, point.y);
+  return rows;
+}
+
 std::string overlay_data(const PictureOverlay& overlay) {
   std::string script;
-  std::string rows;
-  for (const PicturePoint& point : overlay.path) rows += fmt::format("{} {}\n", point.x, point.y);
-  if (!overlay.path.empty()) script += data_block("path", rows);
+  for (std::size_t i = 0; i < overlay.curves.size(); ++i) {
+    script += data_block(fmt::format("curve{}", i), rows_of(overlay.curves[i].points));
+  }
+  if (!overlay.path.empty()) script += data_block("path", rows_of(overlay.path));
   for (std::size_t i = 0; i < overlay.marks.size(); ++i) {
     const PicturePoint& point = overlay.marks[i].point;
     script += data_block(fmt::format("mark{}", i), fmt::format("{} {}\n", point.x, point.y));
@@ -159,10 +166,25 @@ std::string overlay_data(const PictureOverlay& overlay) {
 
 /// What of a plot command draws the overlay: light on dark and dark on light, since it crosses all
 /// colours.
-/// @param joined  whether lines join the points of the path
-std::vector<std::string> overlay_plots(const PictureOverlay& overlay, bool joined) {
+/// @param on_map  where lines join the points of the path
+std::vector<std::string> overlay_plots(const PictureOverlay& overlay, bool on_map) {
   std::vector<std::string> plots;
-  if (!overlay.path.empty() && joined) {
+  struct Stroke {
+    const char* dashes;
+    const char* on_map;
+    const char* on_white;
+  };
+  constexpr std::array<Stroke, 3> strokes{{{"(10,5)", "#ff5d3c", "#d55e00"},
+                                           {"(3,4)", "#ff4fd8", "#cc79a7"},
+                                           {"(12,4,3,4)", "#bdbdbd", "#009e73"}}};
+  assert(overlay.curves.size() <= strokes.size());
+  for (std::size_t i = 0; i < overlay.curves.size(); ++i) {
+    const Stroke& stroke = strokes[i];
+    plots.push_back(fmt::format(
+        "$curve{} with lines dashtype {} linewidth 2 linecolor rgb '{}' title {}", i, stroke.dashes,
+        on_map ? stroke.on_map : stroke.on_white, gnuplot_text(overlay.curves[i].label)));
+  }
+  if (!overlay.path.empty() && on_map) {
     plots.insert(plots.end(), {"$path with lines linecolor rgb '#a0000000' linewidth 1.6 notitle",
                                "$path with lines linecolor rgb '#60ffffff' linewidth 0.7 notitle"});
   }
@@ -223,7 +245,8 @@ std::optional<std::string> write_picture(const MapPicture& picture,
     x.include(point.x);
     y.include(point.y);
   }
-  const bool is_logarithmic = values.least > 0.0 && values.greatest > linear_range * values.least;
+  const bool is_logarithmic =
+      !picture.is_linear && values.least > 0.0 && values.greatest > linear_range * values.least;
   const std::vector<double> levels = round_numbers(values, 8, is_logarithmic);
   // A plain: any range will do, but not none.
   if (values.least == values.greatest) values.greatest += std::max(1e-9, std::abs(values.least));
@@ -283,6 +306,9 @@ std::optional<std::string> write_picture(const LinePicture& picture,
     values.include(point.y);
   }
   for (const PictureMark& mark : picture.overlay.marks) values.include(mark.point.y);
+  for (const PictureCurve& curve : picture.overlay.curves) {
+    for (const PicturePoint& point : curve.points) values.include(point.y);
+  }
   const double margin =
       0.05 * (values.greatest - values.least) + 1e-9 * std::max(1.0, std::abs(values.greatest));
   std::string script =
@@ -292,7 +318,10 @@ std::optional<std::string> write_picture(const LinePicture& picture,
           "rgb '#dddddd'\n",
           gnuplot_text(picture.value_label), values.least - margin, values.greatest + margin);
   std::vector<std::string> plots{
-      "$line using 1:2 with lines linecolor rgb '#31688e' linewidth 1.5 notitle",
+      "$line using 1:2 with lines linecolor rgb '#31688e' linewidth 1.5 " +
+          // Beside curves it must be told which it is.
+          (picture.overlay.curves.empty() ? "notitle"
+                                          : "title " + gnuplot_text(picture.value_label)),
       "$line using 1:2:3 with yerrorbars pointtype 7 pointsize 0.6 linecolor rgb '#31688e' "
       "notitle"};
   const std::vector<std::string> overlay = overlay_plots(picture.overlay, false);

@@ -29,11 +29,18 @@ struct PictureMark {
   PicturePoint point;
 };
 
+/// A dashed line.
+struct PictureCurve {
+  std::string label;
+  std::vector<PicturePoint> points;  ///< joined in their order
+};
+
 /// What is drawn over a map or a line.
 struct PictureOverlay {
   std::string path_label = {};
-  std::vector<PicturePoint> path = {};  ///< joined in its order on a map
-  std::vector<PictureMark> marks = {};  ///< at most 2
+  std::vector<PicturePoint> path = {};    ///< joined in its order on a map
+  std::vector<PictureMark> marks = {};    ///< at most 2
+  std::vector<PictureCurve> curves = {};  ///< at most 3; a map is not made larger for them
 };
 
 /// A quantity over two others, in colours that are distinct for the colour-blind and in print, with
@@ -45,6 +52,8 @@ struct MapPicture {
   std::string value_label;
   std::vector<std::vector<double>> values;  ///< of each x, of each y; NaN where there is none
   PictureOverlay overlay = {};
+  /// Colours that are even in the values, however wide their range: for shares of a whole.
+  bool is_linear = false;
 };
 
 /// A quantity over another, with its standard errors.

@@ -81,7 +81,8 @@ po::options_description general_options() {
   add("config", "FILE", "read a configuration file; of several, the later wins");
   add("preset", "NAME", preset_text);
   add("output", "DIR", "write the results there [results/<command>-<n>]");
-  add("resume", "DIR", "sweep: go on with the interrupted run in this folder, as it is configured");
+  add("resume", "DIR",
+      "sweep, reproduce: go on with the interrupted run in this folder, as it is configured");
   add("threads", "N", "use this many cores, 0 = all [0]");
   add_flag("quiet", "print no progress");
   add_flag("verify", "advise: simulate the design on fresh screens, as the section verify says");
@@ -254,6 +255,8 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> known{
       {"evaluate", "measure one design: wavefront error, loops and time with standard errors"},
       {"convergence", "follow one design's residual wavefront error from loop to loop"},
+      {"response",
+       "measure how much of single spatial frequencies a design recovers, beside prediction"},
       {"screens", "make phase screens: a FITS cube and its statistics"},
       {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
       {"sweep", "try every design of a grid: maps of all figures, and the best, verified", true},
@@ -265,6 +268,8 @@ const std::vector<Command>& commands() {
       {"trade", "try several objectives at once: the front of the best compromises, verified"},
       {"law", "fit the scaling law that advise follows to the best designs at several D/r0"},
       {"advise", "tell a telescope's planes from the scaling law; --verify simulates them"},
+      {"reproduce",
+       "run every study of Letchev et al. 2022 and hold its claims against the results", true},
       {"benchmark", "time a configuration on this machine; writes files only with --output"}};
   return known;
 }

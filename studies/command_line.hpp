@@ -31,6 +31,7 @@ struct CommandLine {
   std::optional<std::filesystem::path> resume;  ///< folder of the run to go on with
   int threads = 0;                              ///< 0 = all cores
   bool quiet = false;
+  bool silent = false;   ///< print no results either: for runs that are parts of another
   bool verify = false;   ///< simulate what advise predicts; only for advise
   bool help = false;     ///< then the configuration holds the defaults
   bool version = false;  ///< then the configuration holds the defaults

@@ -623,6 +623,44 @@ std::vector<ConfigurationKey> make_keys() {
        .description = "Seeings at which law searches designs, to fit the scaling law to them.",
        .bounds = {.least = 0, .greatest = 1e4, .least_included = false}},
 
+      {.name = "reproduce.figures",
+       .kind = Kind::text,
+       .default_text = "3,4,5,6,7,8,scaling,response,numerics",
+       .description = "What of Letchev et al. 2022 reproduce runs: figures by their numbers, the "
+                      "scaling by Fresnel numbers, the response to single spatial frequencies, "
+                      "what the numerics decide."},
+      {.name = "reproduce.grid",
+       .kind = Kind::integer,
+       .default_text = "32",
+       .description = "Distances on each axis of the maps in the paper's set-up, up to 250 km.",
+       .bounds = from_to(4, 256)},
+      {.name = "reproduce.extended_grid",
+       .kind = Kind::integer,
+       .default_text = "16",
+       .description = "The same with an extended truth.",
+       .bounds = from_to(4, 256)},
+
+      {.name = "response.frequencies",
+       .kind = Kind::axis,
+       .description = "Spatial frequencies at which response measures a sensor. Not set: 1, 2, ... "
+                      "16, as far as they are below half of detector.pupil_pixels.",
+       .unit = "cycles per pupil diameter",
+       .bounds = above(0),
+       .example = "1:16:16 or 0.5,1,2"},
+      {.name = "response.amplitude",
+       .kind = Kind::length,
+       .default_text = "10nm",
+       .description = "Amplitude (peak) of the sinusoidal aberrations of response, optical path; "
+                      "their orientations and phases are drawn for each of screens.count.",
+       .bounds = above(0)},
+      {.name = "response.distances",
+       .kind = Kind::axis,
+       .description = "Distances z at which response measures pairs of planes -z, +z too: a map. "
+                      "Not set: only the configured planes.",
+       .bounds = above(0),
+       .example = "10km:200km:20",
+       .element = Kind::length},
+
       {.name = "scale.diameter",
        .kind = Kind::length,
        .description = "Pupil diameter of the telescope that a design is moved to. Not set: as "

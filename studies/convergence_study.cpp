@@ -135,15 +135,15 @@ void run_convergence(const CommandLine& command_line) {
   record.write_summary(
       {{"design", to_json(tried, trial)}, {"residual_after_loops_nm", residuals_object(loops)}});
 
-  for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  if (no_picture) fmt::print("note: there is no picture: {}\n", *no_picture);
+  for (const std::string& note : notes) record.print("note: {}\n", note);
+  if (no_picture) record.print("note: there is no picture: {}\n", *no_picture);
   const Performance& performance = tried.performances.front();
-  fmt::print("{}\n\n{}\n{}\n", telescope_line(telescope, seeing),
-             planes_table(design, telescope, seeing, &performance), loops_text(loops));
-  fmt::print("With reconstruction.tolerance = {}:\n{}\n{}\n",
-             configuration.value_text("reconstruction.tolerance"),
-             performance_table({{"mean +- standard error", &performance, tried.costs}}),
-             record.closing_line());
+  record.print("{}\n\n{}\n{}\n", telescope_line(telescope, seeing),
+               planes_table(design, telescope, seeing, &performance), loops_text(loops));
+  record.print("With reconstruction.tolerance = {}:\n{}\n{}\n",
+               configuration.value_text("reconstruction.tolerance"),
+               performance_table({{"mean +- standard error", &performance, tried.costs}}),
+               record.closing_line());
 }
 
 }  // namespace nlcwfs

@@ -54,14 +54,14 @@ void run_evaluate(const CommandLine& command_line) {
   record.folder().write("screens.csv", screens_table(performance));
   record.write_summary({{"design", to_json(tried, trial)}});
 
-  for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n\n", telescope_line(telescope, seeing));
-  fmt::print("{}\n", planes_table(design, telescope, seeing, &performance));
-  fmt::print("On {} screens, {} truth:\n{}", performance.screens.size(),
-             configuration.choice("simulation.truth"),
-             performance_table({{"mean +- standard error", &performance, tried.costs}}));
-  fmt::print("{}", captured_energy_warnings(design, performance));
-  fmt::print("\n{}\n", record.closing_line());
+  for (const std::string& note : notes) record.print("note: {}\n", note);
+  record.print("{}\n\n", telescope_line(telescope, seeing));
+  record.print("{}\n", planes_table(design, telescope, seeing, &performance));
+  record.print("On {} screens, {} truth:\n{}", performance.screens.size(),
+               configuration.choice("simulation.truth"),
+               performance_table({{"mean +- standard error", &performance, tried.costs}}));
+  record.print("{}", captured_energy_warnings(design, performance));
+  record.print("\n{}\n", record.closing_line());
 }
 
 }  // namespace nlcwfs

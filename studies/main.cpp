@@ -48,7 +48,8 @@ void run(int argc, const char* const* argv) {
       {"advise", run_advise},     {"benchmark", run_benchmark},
       {"compare", run_compare},   {"convergence", run_convergence},
       {"evaluate", run_evaluate}, {"law", run_law},
-      {"optimize", run_optimize}, {"scale", run_scale},
+      {"optimize", run_optimize}, {"reproduce", run_reproduce},
+      {"response", run_response}, {"scale", run_scale},
       {"screens", run_screens},   {"sweep", run_sweep},
       {"trade", run_trade}};
   studies.at(command_line.command)(command_line);

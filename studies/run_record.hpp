@@ -5,7 +5,9 @@
 #include "studies/command_line.hpp"
 
 #include <string>
+#include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace nlcwfs {
@@ -23,6 +25,12 @@ class RunRecord {
   /// Writes summary.json: command, version, config (every key with its text, null where not set),
   /// then `results`.
   void write_summary(const nlohmann::ordered_json& results) const;
+
+  /// Prints on standard output, unless the run is a silent part of another.
+  template <class... Values>
+  void print(fmt::format_string<Values...> format, Values&&... values) const {
+    if (!command_line_.silent) fmt::print(format, std::forward<Values>(values)...);
+  }
 
   /// "Results are in results/optimize-1."
   std::string closing_line() const;

@@ -104,11 +104,11 @@ void run_scale(const CommandLine& command_line) {
                           {"wavelength_m", target.wavelength},
                           {"fried_parameter_m", target_seeing.fried_parameter}}}});
 
-  fmt::print("From: {}\n{}\n", telescope_line(telescope, seeing),
-             planes_table(design, telescope, seeing));
-  fmt::print("To: {}\n{}\n", telescope_line(target, target_seeing),
-             planes_table(scaled, target, target_seeing));
-  fmt::print(
+  record.print("From: {}\n{}\n", telescope_line(telescope, seeing),
+               planes_table(design, telescope, seeing));
+  record.print("To: {}\n{}\n", telescope_line(target, target_seeing),
+               planes_table(scaled, target, target_seeing));
+  record.print(
       "Equal Fresnel numbers and D/r0: the same loops, and the same wavefront error in waves\n"
       "(in nm it is multiplied by {:.4g}). scaled.cfg evaluates the new design.\n{}\n",
       target.wavelength / telescope.wavelength, record.closing_line());

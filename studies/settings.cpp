@@ -60,21 +60,6 @@ bool is_matched(const Configuration& configuration) {
   return configuration.choice("simulation.truth") == "matched";
 }
 
-/// Refuses more screens than memory is allowed for, before they are made.
-/// @param key, value  what asks for so many
-template <class Value>
-void require_memory(std::string_view key, const Value& value, double count, int samples) {
-  const double bytes_per_screen = double(samples) * samples * sizeof(double);
-  if (count * bytes_per_screen <= max_image_memory) return;
-  throw InputError(
-      key, value,
-      fmt::format(
-          "{:.0f} screens of {} x {} samples take {:.3g} GiB of memory; at most {:.0f} of them "
-          "fit into the {:g} GiB allowed",
-          count, samples, samples, count * bytes_per_screen / std::exp2(30),
-          std::floor(max_image_memory / bytes_per_screen), max_image_memory / std::exp2(30)));
-}
-
 std::vector<PhaseScreen> simulated_screens(const Configuration& configuration,
                                            const Telescope& telescope, const Seeing& seeing,
                                            int samples, int count, std::string_view seed_key) {
@@ -128,7 +113,7 @@ std::vector<PhaseScreen> screens_in(const Configuration& configuration, const Te
     return screens_from_file(file, telescope, samples, notes);
   }
   const int count = configuration.integer("screens.count");
-  require_memory("screens.count", count, double(seeings) * count, samples);
+  require_memory("screens.count", std::to_string(count), double(seeings) * count, samples);
   return simulated_screens(configuration, telescope, seeing, samples, std::min(count, most),
                            "screens.seed");
 }
@@ -187,6 +172,18 @@ std::vector<Condition> conditions_of(const Configuration& configuration, const T
 }
 
 }  // namespace
+
+void require_memory(std::string_view key, const std::string& value, double count, int samples) {
+  const double bytes_per_screen = double(samples) * samples * sizeof(double);
+  if (count * bytes_per_screen <= max_image_memory) return;
+  throw InputError(
+      key, value,
+      fmt::format(
+          "{:.0f} screens of {} x {} samples take {:.3g} GiB of memory; at most {:.0f} of them "
+          "fit into the {:g} GiB allowed",
+          count, samples, samples, count * bytes_per_screen / std::exp2(30),
+          std::floor(max_image_memory / bytes_per_screen), max_image_memory / std::exp2(30)));
+}
 
 Telescope telescope_of(const Configuration& configuration) {
   const Telescope telescope{
@@ -551,7 +548,7 @@ DesignTrial verification_trial_of(const Configuration& configuration, bool pixel
   const int samples = truth_samples(configuration) * factor;
   const int count = verification_screens(configuration);
   const auto seeings = double(seeings_of(configuration, telescope).size());
-  require_memory("verify.screens", count, seeings * count, samples);
+  require_memory("verify.screens", std::to_string(count), seeings * count, samples);
   return {conditions_of(configuration, telescope, options,
                         [&](const Seeing& seeing) {
                           return simulated_screens(configuration, telescope, seeing, samples, count,

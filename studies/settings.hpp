@@ -72,6 +72,11 @@ LightSource light_source_of(const Configuration& configuration);
 SimulationOptions simulation_options_of(const Configuration& configuration,
                                         std::string_view precision_key);
 
+/// Refuses more screens than memory is allowed for, before they are made.
+/// @param key, value  what asks for so many
+/// @param samples     of a screen along each side
+void require_memory(std::string_view key, const std::string& value, double count, int samples);
+
 /// The wavefronts of the section screens in the first seeing, simulated or from a file, at the
 /// truth's samples.
 /// @param notes  gets a line where screens had to be resampled

@@ -14,6 +14,10 @@ void run_evaluate(const CommandLine& command_line);
 /// How one design's wavefront error falls from loop to loop.
 void run_convergence(const CommandLine& command_line);
 
+/// How much of single spatial frequencies one design recovers, and pairs of planes on the
+/// configured distances do, beside what the Talbot effect and the photons let expect.
+void run_response(const CommandLine& command_line);
+
 /// The best design of the configured search, verified on fresh screens beside the baseline.
 void run_optimize(const CommandLine& command_line);
 
@@ -32,6 +36,10 @@ void run_compare(const CommandLine& command_line);
 /// The planes that the scaling law gives for the configured telescope and seeing, and what they are
 /// predicted to reach; with --verify simulated too.
 void run_advise(const CommandLine& command_line);
+
+/// Every study of Letchev et al. 2022, and what their claims have come to. A run that was
+/// interrupted goes on with --resume.
+void run_reproduce(const CommandLine& command_line);
 
 /// How fast this machine is at the configuration. Makes an output folder only where the user named
 /// one: its figures are of the moment.

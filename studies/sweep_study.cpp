@@ -502,25 +502,26 @@ void run_sweep(const CommandLine& command_line) {
 
   const Performance performance = pooled(best.performances);
   const Performance search_performance = pooled(on_search_screens.performances);
-  for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n", telescope_line(task.telescope, task.seeing));
-  fmt::print("Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
-             evaluations, task.grid.size(), task.trial.screen_count(),
-             configuration.choice("search.precision"), duration_text(sweep.elapsed()),
-             taken_over > 0 ? fmt::format(" ({} of them in an earlier run)", taken_over) : "",
-             failures > 0 ? fmt::format("; {} of them failed, see sweep.csv", failures) : "");
-  fmt::print("Best design, planes in visiting order:\n{}\n",
-             planes_table(best.design, task.telescope, task.seeing, &performance));
-  fmt::print(
+  for (const std::string& note : notes) record.print("note: {}\n", note);
+  record.print("{}\n", telescope_line(task.telescope, task.seeing));
+  record.print(
+      "Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
+      evaluations, task.grid.size(), task.trial.screen_count(),
+      configuration.choice("search.precision"), duration_text(sweep.elapsed()),
+      taken_over > 0 ? fmt::format(" ({} of them in an earlier run)", taken_over) : "",
+      failures > 0 ? fmt::format("; {} of them failed, see sweep.csv", failures) : "");
+  record.print("Best design, planes in visiting order:\n{}\n",
+               planes_table(best.design, task.telescope, task.seeing, &performance));
+  record.print(
       "On the sweep's {} screens, and on {} fresh ones with the true field {} samples across "
       "the pupil:\n{}",
       task.trial.screen_count(), task.verification.screen_count(),
       task.verification.conditions().front().simulation->truth_samples(),
       performance_table({{"sweep's screens", &search_performance, on_search_screens.costs},
                          {"fresh screens", &performance, best.costs}}));
-  fmt::print("{}\n{}{}\n{}\n", conditions_table(best, task.verification),
-             ranking_text(ranking, "The sweep"), captured_energy_warnings(best.design, performance),
-             record.closing_line());
+  record.print("{}\n{}{}\n{}\n", conditions_table(best, task.verification),
+               ranking_text(ranking, "The sweep"),
+               captured_energy_warnings(best.design, performance), record.closing_line());
 }
 
 }  // namespace nlcwfs

@@ -114,6 +114,51 @@ TEST_F(MapPictureTest, ALineHasItsErrors) {
   EXPECT_THAT(contents("line.svg"), AllOf(HasSubstr("residual WFE, nm"), HasSubstr("best")));
 }
 
+TEST_F(MapPictureTest, CurvesAreNamedAndLeaveAMapAsLargeAsItIs) {
+  MapPicture picture = bowl();
+  ASSERT_EQ(write_picture(picture, "plain"), std::nullopt);
+  picture.overlay.curves = {{"steep", {{10, 1}, {80, 1e6}}},
+                            {"flat", {{1, 150}, {1e3, 150}}},
+                            {"none of it", {{1e5, 1e5}, {1e6, 1e6}}}};
+  ASSERT_EQ(write_picture(picture, "curves"), std::nullopt);
+  const std::string svg = contents("curves.svg");
+  EXPECT_THAT(svg, AllOf(HasSubstr("steep"), HasSubstr("flat"), HasSubstr("none of it")));
+  const std::string filled = "<polygon fill = 'rgb";
+  EXPECT_EQ(count_of(svg, filled), count_of(contents("plain.svg"), filled));
+  EXPECT_EQ(count_of(svg, "> ?200<"), 1);
+  EXPECT_EQ(count_of(svg, "> ?1000<"), 0);
+}
+
+TEST_F(MapPictureTest, ALineStandsBesideCurvesThatItHasRoomFor) {
+  LinePicture picture{.title = "line",
+                      .x = near_axis(),
+                      .value_label = "share",
+                      .values = {{0.3, 0.01}, {0.2, 0.01}, {0.1, 0.01}, {0.4, 0.01}}};
+  ASSERT_EQ(write_picture(picture, "alone"), std::nullopt);
+  picture.overlay.curves = {{"predicted", {{10, 2}, {80, 7}}}};
+  ASSERT_EQ(write_picture(picture, "beside"), std::nullopt);
+  const std::string svg = contents("beside.svg");
+  EXPECT_THAT(svg, HasSubstr("predicted"));
+  // At its axis, and now beside its line in the key.
+  EXPECT_EQ(count_of(contents("alone.svg"), ">share<"), 1);
+  EXPECT_EQ(count_of(svg, ">share<"), 2);
+  EXPECT_EQ(count_of(svg, "> ?7<"), 1);
+}
+
+TEST_F(MapPictureTest, SharesHaveEvenColours) {
+  // On a logarithmic scale a wide range has more numbers below its middle than above.
+  MapPicture picture = bowl();
+  for (std::size_t i = 0; i < picture.values.size(); ++i) {
+    for (double& value : picture.values[i]) value = i == 0 ? 0.001 : 1.0;
+  }
+  ASSERT_EQ(write_picture(picture, "logarithmic"), std::nullopt);
+  picture.is_linear = true;
+  ASSERT_EQ(write_picture(picture, "linear"), std::nullopt);
+  EXPECT_EQ(count_of(contents("logarithmic.svg"), "> ?0\\.01<"), 1);
+  EXPECT_EQ(count_of(contents("linear.svg"), "> ?0\\.01<"), 0);
+  EXPECT_EQ(count_of(contents("linear.svg"), "> ?0\\.6<"), 1);
+}
+
 TEST_F(MapPictureTest, PlainsAndSmallGridsAreDrawn) {
   MapPicture picture = bowl();
   for (auto& row : picture.values) std::ranges::fill(row, 2.5);

@@ -40,12 +40,22 @@ TEST_F(BadInput, OfTheCommandLine) {
                  "command line = --detector.pupil_pixel", "did you mean --detector.pupil_pixels?");
   expect_refused(
       "optimise", {}, "command = optimise",
-      "one of evaluate, screens, scale, sweep, optimize, compare, trade, law, advise, benchmark; "
-      "did you mean optimize?");
+      "one of evaluate, convergence, response, screens, scale, sweep, optimize, compare, trade, "
+      "law, advise, reproduce, benchmark; did you mean optimize?");
   expect_refused("evaluate", {"optimize"}, "command line = optimize", "nothing may follow");
   expect_refused("evaluate", {"--screens.count"}, "screens.count = (nothing)", "a whole number");
   expect_refused("evaluate", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");
   expect_refused("evaluate", {"--preset", "papr"}, "--preset = papr", "one of paper");
+  expect_refused("evaluate", {"--source.bands", "600nm:500nm"}, "source.bands = 600nm:500nm",
+                 "SHORTEST:LONGEST above 0");
+  expect_refused("evaluate", {"--source.bands", "500nm:600nm,600nm:700nm"},
+                 "source.bands = 2 bands", "one for each of the 4 planes");
+  expect_refused("optimize", {"--source.division", "split"}, "source.division = split",
+                 "source.bands must be set");
+  expect_refused("evaluate", {"--source.bands", "500nm:600nm", "--source.weights", "1,2"},
+                 "source.weights = 2 weights", "one for each of the 20");
+  expect_refused("reproduce", {"--reproduce.figures", "3,9"}, "reproduce.figures = 3,9",
+                 "a list of 3, 4, 5");
   for (const Arguments& arguments : {Arguments{}, Arguments{"--quiet"}}) {
     const ProgramRun refused = run(arguments);
     EXPECT_EQ(refused.exit_code, 2);
@@ -123,6 +133,39 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
   expect_refused("evaluate", {"--seeing.fwhm", "1e9"},
                  "seeing.fried_parameter = 1.0709928787729236e-10", "at least the diameter");
   expect_refused("scale", {}, "scale.diameter = (nothing)", "such as --scale.diameter 8.2m");
+}
+
+TEST_F(BadInput, OfAResponse) {
+  expect_refused("response", {"--response.frequencies", "0,1"}, "response.frequencies = 0,1",
+                 "above 0");
+  expect_refused("response", {"--response.frequencies", "5:1:3"}, "response.frequencies = 5:1:3",
+                 "such as 1:16:16");
+  expect_refused("response", {"--response.frequencies", "1,3,1"}, "response.frequencies = 1,3,1",
+                 "each number once");
+  expect_refused("response", {"--response.frequencies", "7.9,8"}, "response.frequencies = 8",
+                 "below 8 cycles per pupil diameter, half of detector.pupil_pixels");
+  expect_refused("response",
+                 {"--response.frequencies", "9", "--simulation.truth", "matched",
+                  "--detector.pupil_pixels", "18"},
+                 "response.frequencies = 9", "below 9 cycles");
+  expect_refused("response", {"--response.amplitude", "0"}, "response.amplitude = 0",
+                 "a length above 0");
+  expect_refused("response", {"--response.amplitude", "1rad"}, "response.amplitude = 1rad",
+                 "a length above 0");
+  expect_refused("response", {"--response.distances", "10km,-10km"},
+                 "response.distances = 10km,-10km", "above 0");
+  expect_refused("response", {"--response.distances", "10km,10000m"},
+                 "response.distances = 10km,10000m", "each number once");
+  expect_refused("response", {"--response.distances", "10km,5000km"},
+                 "response.distances = 5000000", "no pair of planes can be there");
+  expect_refused("response", {"--sensor.planes", "47km"}, "sensor.planes = 47000",
+                 "at least 2 distances");
+  expect_refused("response", {"--simulation.pupil_samples", "40"}, "simulation.pupil_samples = 40",
+                 "a multiple of detector.pupil_pixels");
+  expect_refused("response", {"--screens.count", "1000000", "--simulation.pupil_samples", "64"},
+                 "screens.count = 1000000", "GiB of memory");
+  expect_refused("response", {"--detector.photons", "1e4,1e5"}, "detector.photons = 1e4,1e5",
+                 "one value for this command");
 }
 
 TEST_F(BadInput, OfABenchmark) {

@@ -104,16 +104,16 @@ TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
 
 TEST(CommandLine, AsksForACommand) {
   const std::string message =
-      "command = (nothing): one of evaluate, screens, scale, sweep, optimize, compare, trade, "
-      "law, advise, benchmark; "
+      "command = (nothing): one of evaluate, convergence, response, screens, scale, sweep, "
+      "optimize, compare, trade, law, advise, reproduce, benchmark; "
       "nlcwfs --help explains them";
   EXPECT_EQ(parse_message({}), message);
   EXPECT_EQ(parse_message({"--quiet"}), message);
   EXPECT_EQ(message_of([] { parse_command_line(0, std::vector<const char*>{nullptr}.data()); }),
             message);
   EXPECT_EQ(parse_message({"optimise"}),
-            "command = optimise: one of evaluate, screens, scale, sweep, optimize, compare, trade, "
-            "law, advise, benchmark; did you mean optimize?");
+            "command = optimise: one of evaluate, convergence, response, screens, scale, sweep, "
+            "optimize, compare, trade, law, advise, reproduce, benchmark; did you mean optimize?");
   EXPECT_THAT(parse_message({""}), StartsWith("command = (nothing): one of "));
 }
 

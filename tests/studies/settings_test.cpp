@@ -184,6 +184,24 @@ DesignTrial quick_trial(std::initializer_list<std::pair<const char*, const char*
   return trial_of(configuration, "simulation.precision", notes);
 }
 
+TEST(Settings, TheSourceIsThatOfItsSection) {
+  EXPECT_TRUE(light_source_of(Configuration()).bands.empty());
+  EXPECT_EQ(light_source_of(Configuration()).aberration, ChromaticAberration::path);
+  const LightSource source = light_source_of(with({{"source.bands", "400nm:800nm"},
+                                                   {"source.division", "split"},
+                                                   {"source.wavelengths", "3"},
+                                                   {"source.weights", "1,2,1"},
+                                                   {"source.aberration", "phase"}}));
+  EXPECT_EQ(source.bands, (std::vector<Band>{{400e-9, 800e-9}}));
+  EXPECT_TRUE(source.is_split);
+  EXPECT_EQ(source.wavelengths, 3);
+  EXPECT_EQ(source.weights, (std::vector{1.0, 2.0, 1.0}));
+  EXPECT_EQ(source.aberration, ChromaticAberration::phase);
+  Configuration paper;
+  paper.apply_preset("paper");
+  EXPECT_EQ(light_source_of(paper).aberration, ChromaticAberration::phase);
+}
+
 TEST(Settings, TrialsAreUnderEachSeeingWithEachLight) {
   const DesignTrial trial =
       quick_trial({{"seeing.fried_parameter", "12.5cm,6.25cm"}, {"detector.photons", "0,1e5"}});

@@ -403,7 +403,9 @@ TEST_F(Studies, TheConfigurationOfARunReproducesIt) {
                            "--search.z_far",
                            "100km:200km",
                            "--scale.wavelength",
-                           "850nm"};
+                           "850nm",
+                           "--reproduce.figures",
+                           "scaling"};
   for (const Command& command : commands()) {
     if (!command.arguments.empty()) continue;
     const std::string first = command.name + "-first";
@@ -431,8 +433,9 @@ TEST_F(Studies, TheSeedDecidesTheResult) {
 TEST_F(Studies, TheNumberOfThreadsDoesNotMatter) {
   for (const Command& command : commands()) {
     if (!command.arguments.empty()) continue;
-    const Arguments more{"--screens.count",  "5",  "--detector.photons", "1e5",
-                         "--scale.diameter", "2m", "--verify.screens",   "3"};
+    const Arguments more{"--screens.count",     "5",      "--detector.photons", "1e5",
+                         "--scale.diameter",    "2m",     "--verify.screens",   "3",
+                         "--reproduce.figures", "scaling"};
     for (const std::string threads : {"1", "2"}) {
       Arguments arguments = more;
       arguments.insert(arguments.end(), {"--threads", threads});
@@ -475,6 +478,21 @@ TEST_F(Studies, ScreensOfAnotherSamplingAreResampledWithANote) {
   done("screens", "equal");
   EXPECT_THAT(done("evaluate", "unchanged", {"--screens.file", "equal/screens.fits"}).output,
               Not(HasSubstr("note:")));
+}
+
+TEST_F(Studies, BandsMoveToAnotherWavelengthWithTheDesign) {
+  const Arguments band{"--source.bands", "500nm:600nm", "--source.wavelengths", "3"};
+  done("evaluate", "here", band);
+  Arguments moved = band;
+  moved.insert(moved.end(), {"--scale.wavelength", "1064nm"});
+  done("scale", "scaled", moved);
+  done("evaluate", "there", {"--config", "scaled/scaled.cfg"});
+  const auto residual = [](const char* folder) {
+    return double(summary(folder)["design"]["performance"]["residual_wfe_nm"]["mean"]);
+  };
+  EXPECT_NEAR(residual("there"), 2.0 * residual("here"), 1e-6 * residual("here"));
+  done("evaluate", "one");
+  EXPECT_GT(residual("here"), residual("one"));
 }
 
 TEST_F(Studies, ADesignIsFoundForSeveralConditions) {

@@ -144,6 +144,17 @@ TEST(ParseOrders, ReadsOrdersOfNumberedPlanes) {
   }
 }
 
+TEST(Units, BandsAreRangesOfWavelengths) {
+  const auto bands = parse_bands("500nm:549nm, 632.8nm");
+  ASSERT_TRUE(bands);
+  ASSERT_EQ(bands->size(), 2u);
+  EXPECT_EQ(bands->front(), (Band{500e-9, 549e-9}));
+  EXPECT_EQ(bands->back(), (Band{632.8e-9, 632.8e-9}));
+  for (const char* text : {"", "500nm:", ":500nm", "600nm:500nm", "500nm:600nm,", "1:2:3", "a:b"}) {
+    EXPECT_EQ(parse_bands(text), std::nullopt) << text;
+  }
+}
+
 TEST(WithLengths, ReplacesTheLengthsOfDomainsAndAxes) {
   const auto twice = [](std::string_view text) {
     return with_lengths(text, [](double length) { return 2.0 * length; });

@@ -1,0 +1,265 @@
+#include "studies/reproduction_plan.hpp"
+
+#include "model/input_error.hpp"
+#include "model/telescope.hpp"
+#include "studies/settings.hpp"
+#include "studies/text.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <boost/algorithm/string/split.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+constexpr double km = 1e3;
+/// Of the paper's maps and its fifth plane.
+constexpr double farthest = 250 * km;
+constexpr std::string_view source = "by reproduce";
+
+/// Sets what has its default value: a run's own configuration file, which names every key, asks for
+/// the same again.
+void set_defaults(Configuration& configuration,
+                  const std::vector<std::pair<std::string, std::string>>& values) {
+  const Configuration defaults;
+  for (const auto& [key, value] : values) {
+    if (configuration.value_text(key) == defaults.value_text(key)) {
+      configuration.set(key, value, source);
+    }
+  }
+}
+
+/// The paper's planes in its order, at the Fresnel numbers of its telescope.
+std::string papers_planes(const Telescope& telescope) {
+  std::vector<double> planes{-47 * km, 47 * km, -180 * km, 180 * km};
+  for (double& plane : planes) plane = scaled_distance(plane, Telescope(), telescope);
+  return fmt::format("{}", fmt::join(planes, ","));
+}
+
+/// The paper's planes in one of the two set-ups.
+Configuration base_of(const Configuration& given, Setup setup) {
+  Configuration configuration = given;
+  configuration.set("reproduce.figures", Configuration().text("reproduce.figures"), source);
+  if (setup == Setup::paper) {
+    const auto paper = std::ranges::find(presets(), "paper", &Preset::name);
+    set_defaults(configuration, paper->values);
+  }
+  configuration.set("sensor.planes", papers_planes(telescope_of(configuration)), source);
+  // The best of each map is looked at in the report on the maps' own screens.
+  set_defaults(configuration, {{"verify.candidates", "1"}});
+  return configuration;
+}
+
+class Plan {
+ public:
+  explicit Plan(const Configuration& given) : given_(given) {}
+
+  /// Adds a run unless it is there already.
+  void add(const std::string& folder, const std::string& command, Configuration configuration,
+           const std::vector<std::pair<std::string, std::string>>& values) {
+    if (!folders_.insert(folder).second) return;
+    for (const auto& [key, value] : values) configuration.set(key, value, source);
+    runs_.push_back({folder, command, std::move(configuration)});
+  }
+
+  Configuration base(Setup setup) const { return base_of(given_, setup); }
+
+  /// min:max:count of a map's axes.
+  std::string map_axis(Setup setup) const {
+    const char* key = setup == Setup::paper ? "reproduce.grid" : "reproduce.extended_grid";
+    const int count = given_.integer(key);
+    return fmt::format("{}:{}:{}", farthest / count, farthest, count);
+  }
+
+  std::vector<PlannedRun> runs() && { return std::move(runs_); }
+
+  const Configuration& given() const { return given_; }
+
+ private:
+  const Configuration& given_;
+  std::set<std::string> folders_;
+  std::vector<PlannedRun> runs_;
+};
+
+void add_map(Plan& plan, Setup setup, int ratio, const std::string& order,
+             const std::string& folder) {
+  plan.add(folder, "sweep", plan.base(setup),
+           {{"seeing.d_over_r0", fmt::format("{}", ratio)},
+            {"sweep.z_near", plan.map_axis(setup)},
+            {"sweep.z_far", plan.map_axis(setup)},
+            {"sweep.plane_count", fmt::format("{}", order.size())},
+            {"sweep.order", order},
+            {"sweep.crossed_pairs", "left_out"}});
+}
+
+void add_four_plane_map(Plan& plan, Setup setup, int ratio) {
+  add_map(plan, setup, ratio, "1234", fmt::format("figure-3/{}-{}", to_string(setup), ratio));
+}
+
+/// The planes of figure 5: between the paper's last and the pupil, and on both of these.
+std::string fifth_planes(int half_count) {
+  std::vector<double> planes;
+  for (int i = -half_count; i <= half_count; ++i) planes.push_back(farthest * i / half_count);
+  planes.insert(std::ranges::lower_bound(planes, 180 * km), 180 * km);
+  return fmt::format("{}", fmt::join(planes, ","));
+}
+
+void add_fifth_plane(Plan& plan, Setup setup) {
+  Configuration configuration = plan.base(setup);
+  const std::vector<double> planes = configuration.lengths("sensor.planes");
+  std::vector<std::pair<std::string, std::string>> values{
+      {"sweep.layout", "free"}, {"sweep.z5", fifth_planes(plan.given().integer("reproduce.grid"))}};
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    values.emplace_back(fmt::format("sweep.z{}", i + 1), fmt::format("{}", planes[i]));
+  }
+  plan.add(fmt::format("figure-5/{}", to_string(setup)), "sweep", std::move(configuration), values);
+}
+
+/// The near pair at the Talbot distance of r0, as the paper finds best.
+void add_sampling(Plan& plan, Setup setup, int ratio) {
+  const Configuration configuration = plan.base(setup);
+  const Telescope telescope = telescope_of(configuration);
+  const double near = talbot_distance(telescope.diameter / ratio, telescope.wavelength);
+  plan.add(fmt::format("figure-6/{}-{}", to_string(setup), ratio), "sweep", configuration,
+           {{"seeing.d_over_r0", fmt::format("{}", ratio)},
+            {"sensor.planes", fmt::format("{0},{1},-180km,180km", -near, near)},
+            {"simulation.truth", setup == Setup::paper ? "periodic" : "extended"},
+            {"simulation.pupil_samples", "128"},
+            {"detector.pupil_pixels", "128"},
+            {"verify.truth_factor", "1"},
+            {"sweep.pupil_pixels", "128,64,32,16,8"}});
+}
+
+void add_broadband(Plan& plan, Setup setup, const PaperBand& band) {
+  std::vector<std::pair<std::string, std::string>> values{{"seeing.d_over_r0", "6"},
+                                                          {"detector.pupil_pixels", "128"}};
+  if (!band.bands.empty()) {
+    values.emplace_back("source.bands", band.bands);
+    values.emplace_back("source.wavelengths", fmt::format("{}", band.wavelengths));
+  }
+  plan.add(fmt::format("figure-8/{}-{}", to_string(setup), band.name), "convergence",
+           plan.base(setup), values);
+}
+
+/// The paper's design at another telescope, at its Fresnel numbers and with its tolerance in waves.
+void add_scaled(Plan& plan, Setup setup, const NamedSettings& settings) {
+  Configuration configuration = plan.base(setup);
+  const Telescope from = telescope_of(configuration);
+  for (const auto& [key, value] : settings.settings) configuration.set(key, value, source);
+  const Telescope to = telescope_of(configuration);
+  std::vector<double> planes = configuration.lengths("sensor.planes");
+  for (double& plane : planes) plane = scaled_distance(plane, from, to);
+  const double tolerance =
+      configuration.length("reconstruction.tolerance") * to.wavelength / from.wavelength;
+  plan.add(fmt::format("scaling/{}-{}", to_string(setup), settings.name), "evaluate",
+           std::move(configuration),
+           {{"sensor.planes", fmt::format("{}", fmt::join(planes, ","))},
+            {"reconstruction.tolerance", fmt::format("{}", tolerance)}});
+}
+
+/// Of the paper's planes, without noise and with photons, and of pairs of planes.
+void add_responses(Plan& plan) {
+  const Configuration base = plan.base(Setup::extended);
+  plan.add("response/noise-free", "response", base, {{"response.distances", "5km:205km:21"}});
+  plan.add("response/photons", "response", base, {{"detector.photons", "1e6"}});
+}
+
+}  // namespace
+
+std::string_view to_string(Setup setup) { return setup == Setup::paper ? "paper" : "extended"; }
+
+const std::vector<NamedSettings>& scaled_telescopes() {
+  static const std::vector<NamedSettings> telescopes{
+      {"0.5m-532nm", {}},
+      {"1.2m-532nm", {{"telescope.diameter", "1.2m"}}},
+      {"0.5m-850nm", {{"telescope.wavelength", "850nm"}}},
+      {"8.2m-1650nm", {{"telescope.diameter", "8.2m"}, {"telescope.wavelength", "1650nm"}}}};
+  return telescopes;
+}
+
+const std::vector<NamedSettings>& numerical_variants() {
+  static const std::vector<NamedSettings> variants{
+      {"as-the-paper", {}},
+      {"window-2", {{"reconstruction.window", "2"}}},
+      {"window-8", {{"reconstruction.window", "8"}}},
+      {"window-16", {{"reconstruction.window", "16"}}},
+      {"stopping-difference", {{"reconstruction.stopping", "difference"}}},
+      {"unwrapping-quality-guided", {{"reconstruction.unwrapping", "quality_guided"}}},
+      {"truth-periodic-128",
+       {{"simulation.truth", "periodic"}, {"simulation.pupil_samples", "128"}}},
+      {"truth-periodic-256",
+       {{"simulation.truth", "periodic"}, {"simulation.pupil_samples", "256"}}},
+      {"truth-extended-64", {{"simulation.truth", "extended"}, {"simulation.pupil_samples", "64"}}},
+      {"truth-extended-128",
+       {{"simulation.truth", "extended"}, {"simulation.pupil_samples", "128"}}},
+      {"truth-extended-256",
+       {{"simulation.truth", "extended"}, {"simulation.pupil_samples", "256"}}},
+      {"truth-extended-128-difference",
+       {{"simulation.truth", "extended"},
+        {"simulation.pupil_samples", "128"},
+        {"reconstruction.stopping", "difference"}}},
+      {"screens-64", {{"screens.count", "64"}}},
+      {"screens-256", {{"screens.count", "256"}}}};
+  return variants;
+}
+
+std::vector<std::string> figures_of(const Configuration& configuration) {
+  const std::string& text = configuration.text("reproduce.figures");
+  std::vector<std::string> figures;
+  boost::split(figures, text, [](char c) { return c == ','; });
+  for (std::string& figure : figures) {
+    figure = std::string(trimmed(figure));
+    if (std::ranges::count(reproduced_figures, figure) > 0) continue;
+    throw InputError("reproduce.figures", one_line(text),
+                     fmt::format("a list of {}", fmt::join(reproduced_figures, ", ")));
+  }
+  return figures;
+}
+
+std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
+  const std::vector<std::string> figures = figures_of(configuration);
+  const auto wants = [&](std::string_view figure) {
+    return std::ranges::count(figures, figure) > 0;
+  };
+  Plan plan(configuration);
+  for (const Setup setup : setups) {
+    if (wants("3")) {
+      for (const int ratio : map_ratios) add_four_plane_map(plan, setup, ratio);
+    }
+    if (wants("4")) {
+      add_four_plane_map(plan, setup, 4);
+      add_map(plan, setup, 4, "124", fmt::format("figure-4/{}-without-p3", to_string(setup)));
+      add_map(plan, setup, 4, "234", fmt::format("figure-4/{}-without-p1", to_string(setup)));
+    }
+    if (wants("5")) {
+      add_fifth_plane(plan, setup);
+      plan.add(fmt::format("figure-5/{}-four-planes", to_string(setup)), "evaluate",
+               plan.base(setup), {});
+    }
+    if (wants("6")) {
+      for (const int ratio : sampling_ratios) add_sampling(plan, setup, ratio);
+    }
+    for (const PaperBand& band : paper_bands) {
+      if (wants("8") || (wants("7") && band.name == "medium")) add_broadband(plan, setup, band);
+    }
+    for (const NamedSettings& telescope : scaled_telescopes()) {
+      if (wants("scaling")) add_scaled(plan, setup, telescope);
+    }
+  }
+  if (wants("response")) add_responses(plan);
+  for (const NamedSettings& variant : numerical_variants()) {
+    if (!wants("numerics")) break;
+    for (const int ratio : map_ratios) {
+      auto settings = variant.settings;
+      settings.emplace_back("seeing.d_over_r0", fmt::format("{}", ratio));
+      plan.add(fmt::format("numerics/{}-{}", variant.name, ratio), "evaluate",
+               plan.base(Setup::paper), settings);
+    }
+  }
+  return std::move(plan).runs();
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,178 @@
+#include "studies/paper_claims.hpp"
+#include "studies/reproduction_plan.hpp"
+#include "tests/message_of.hpp"
+#include "tests/studies/program.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include <gmock/gmock.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using Json = nlohmann::ordered_json;
+
+std::vector<PlannedRun> runs_of(const std::string& figures) {
+  Configuration configuration;
+  configuration.set("reproduce.figures", figures, "here");
+  return planned_runs(configuration);
+}
+
+TEST(ReproductionPlan, EveryRunHasItsFolderAndItsSetUp) {
+  const std::vector<PlannedRun> runs = runs_of("3,4,5,6,7,8,scaling,response,numerics");
+  std::set<std::string> folders;
+  for (const PlannedRun& run : runs) {
+    EXPECT_TRUE(folders.insert(run.folder).second) << run.folder;
+    if (run.folder.find("/paper") != std::string::npos) {
+      EXPECT_EQ(run.configuration.choice("reconstruction.stopping"), "rms_change") << run.folder;
+      EXPECT_EQ(run.configuration.choice("source.aberration"), "phase");
+      EXPECT_NE(run.configuration.choice("simulation.truth"), "extended");
+    }
+    if (run.folder.find("/extended") != std::string::npos) {
+      EXPECT_EQ(run.configuration.choice("reconstruction.stopping"), "difference") << run.folder;
+      EXPECT_EQ(run.configuration.choice("source.aberration"), "path");
+      EXPECT_EQ(run.configuration.choice("simulation.truth"), "extended");
+    }
+  }
+}
+
+TEST(ReproductionPlan, FiguresShareTheirRuns) {
+  const auto count = [](const std::string& figures) { return runs_of(figures).size(); };
+  EXPECT_EQ(count("3"), 6u);
+  EXPECT_EQ(count("4"), 6u);
+  EXPECT_EQ(count("3,4"), 10u);  // both have the four-plane map of D/r0 = 4
+  EXPECT_EQ(count("7"), 2u);
+  EXPECT_EQ(count("7,8"), count("8"));
+}
+
+TEST(ReproductionPlan, HasThePapersNumbers) {
+  const std::vector<PlannedRun> runs = runs_of("5,8");
+  const auto find = [&](const std::string& folder) {
+    return std::ranges::find(runs, folder, &PlannedRun::folder)->configuration;
+  };
+  const std::vector<double> fifth = find("figure-5/paper").axis("sweep.z5").value();
+  EXPECT_EQ(fifth.size(), 66u);
+  EXPECT_THAT(fifth, IsSupersetOf({-250e3, 0.0, 180e3, 250e3}));
+  const Configuration wide = find("figure-8/paper-wide");
+  EXPECT_EQ(wide.bands("source.bands")[1].centre(), 600e-9);
+  EXPECT_EQ(wide.integer("source.wavelengths"), 40);
+  EXPECT_EQ(wide.integer("detector.pupil_pixels"), 128);
+  EXPECT_EQ(find("figure-8/paper-monochromatic").bands("source.bands").size(), 0u);
+}
+
+TEST(ReproductionPlan, RefusesFiguresThatThePaperDoesNotHave) {
+  EXPECT_THAT(message_of([] { (void)runs_of("3,9"); }),
+              AllOf(HasSubstr("reproduce.figures"), HasSubstr("3, 4, 5")));
+}
+
+using Claims = ScratchFolder;
+
+/// The residual of the design moved to each telescope, in waves.
+void write_scaling(double last) {
+  for (const Setup setup : setups) {
+    for (const NamedSettings& telescope : scaled_telescopes()) {
+      Configuration configuration;
+      for (const auto& [key, value] : telescope.settings) configuration.set(key, value, "here");
+      const bool is_last = &telescope == &scaled_telescopes().back();
+      const double residual =
+          (is_last ? last : 0.01) * configuration.length("telescope.wavelength");
+      const std::string folder = fmt::format("scaling/{}-{}", to_string(setup), telescope.name);
+      std::filesystem::create_directories(folder);
+      std::ofstream(folder + "/summary.json") << Json{
+          {"config", {{"telescope.wavelength", configuration.value_text("telescope.wavelength")}}},
+          {"design",
+           {{"performance",
+             {{"residual_wfe_nm", {{"mean", residual}, {"standard_error", 0.0}}},
+              {"loops", {{"mean", 5.0}, {"standard_error", 0.0}}}}}}}};
+    }
+  }
+}
+ClaimVerdict scaling_verdict() {
+  const std::vector<Claim> claims = checked_claims(ReproducedRuns("."), {"scaling"});
+  EXPECT_EQ(claims.size(), 1u);
+  return claims.front().findings.at(Setup::paper).verdict;
+}
+
+TEST_F(Claims, AreHeldAgainstTheNumbers) {
+  write_scaling(0.01);
+  EXPECT_EQ(scaling_verdict(), ClaimVerdict::reproduced);
+  write_scaling(0.0103);
+  EXPECT_EQ(scaling_verdict(), ClaimVerdict::in_trend);
+  write_scaling(0.02);
+  EXPECT_EQ(scaling_verdict(), ClaimVerdict::not_reproduced);
+}
+
+TEST_F(Claims, NameTheFileThatIsMissing) {
+  try {
+    (void)scaling_verdict();
+    FAIL() << "there is nothing to read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("scaling/paper-0.5m-532nm/summary.json"));
+  }
+}
+
+using Reproduce = Program;
+
+const std::vector<std::string> small{
+    "--reproduce.figures", "4,scaling", "--reproduce.grid", "4", "--reproduce.extended_grid", "4"};
+
+TEST_F(Reproduce, LeavesItsRunsAndOneReport) {
+  const ProgramRun finished = done("reproduce", "run", small);
+  EXPECT_THAT(names_in("run"),
+              IsSupersetOf({"archive.sqlite", "claims.csv", "config.cfg", "figure-3", "figure-4",
+                            "report.md", "scaling", "summary.json"}));
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("Figure 4: Three planes take more loops."),
+                                     EndsWith("Results are in run.\n")));
+  const nlohmann::json json = summary("run");
+  EXPECT_EQ(json["runs"].size(), 6u + 8u);
+  EXPECT_EQ(json["claims"].size(), 5u);
+  for (const auto& claim : json["claims"]) {
+    if (claim["figure"] == "scaling") {
+      EXPECT_EQ(claim["papers_number"], "found accurate");
+      EXPECT_EQ(claim["paper"]["verdict"], "reproduced");
+    }
+  }
+  // Every picture of the report is there.
+  const std::string report = contents("run/report.md");
+  std::size_t pictures = 0;
+  for (auto at = report.find("]("); at != std::string::npos; at = report.find("](", at + 1)) {
+    const std::string file = report.substr(at + 2, report.find(')', at) - at - 2);
+    EXPECT_TRUE(std::filesystem::exists("run/" + file)) << file;
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 2u * 3u * 3u);
+}
+
+TEST_F(Reproduce, GoesOnWhereItWasKilled) {
+  done("reproduce", "whole", small);
+  Arguments arguments{"reproduce", "--config", "tiny.cfg", "--output", "run", "--quiet"};
+  arguments.insert(arguments.end(), small.begin(), small.end());
+  // As a killed run leaves it: some parts whole, one begun, the others not there.
+  done("reproduce", "run", small);
+  std::filesystem::remove("run/summary.json");
+  std::filesystem::remove("run/report.md");
+  std::filesystem::remove("run/figure-4/paper-without-p3/summary.json");
+  std::filesystem::remove("run/scaling/paper-0.5m-850nm/summary.json");
+  std::filesystem::remove_all("run/figure-4/extended-without-p1");
+  const ProgramRun resumed = run({"reproduce", "--resume", "run"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.errors;
+  EXPECT_THAT(resumed.output, AllOf(HasSubstr("figure-4/paper-without-p3"),
+                                    testing::Not(HasSubstr("figure-4/paper-without-p1\n"))));
+  nlohmann::json ours = repeatable_summary("run")["claims"];
+  nlohmann::json theirs = repeatable_summary("whole")["claims"];
+  for (nlohmann::json* claims : {&ours, &theirs}) {
+    for (auto& claim : *claims) {
+      if (claim["papers_number"] == "88 %") claim = nullptr;  // of the clock
+    }
+  }
+  EXPECT_EQ(ours, theirs);
+}
+
+}  // namespace
+}  // namespace nlcwfs
