@@ -20,7 +20,7 @@ struct ScreenPerformance {
   double seconds = 0.0;                 ///< measured time of the reconstruction
   double data_seconds = 0.0;            ///< measured time to make the images, 0 for kept ones
   std::vector<double> captured_energy;  ///< share of the pupil's light in the window, per plane
-  /// Residual WFE after each loop, m; empty unless SimulationOptions::follow_loops.
+  /// Residual WFE after each loop, m; only of Simulation::follow().
   std::vector<double> residual_after_loops = {};
 };
 

@@ -54,7 +54,7 @@ class Experiment {
                options.source),
         reconstructor_(telescope, design) {}
 
-  ScreenPerformance run(const PhaseScreen& truth, std::size_t screen) const {
+  ScreenPerformance run(const PhaseScreen& truth, std::size_t screen, bool follows_loops) const {
     using Clock = std::chrono::steady_clock;
     const auto data_start = Clock::now();
     const std::vector<ImageCache::SharedImage> light = noise_free_images(truth, screen);
@@ -66,9 +66,8 @@ class Experiment {
       result.residual_after_loops.push_back(
           measured(pupil, reconstructor_.unwrapper().unwrap(pupil), truth).residual_wfe);
     };
-    const Reconstruction reconstruction = options_.follow_loops
-                                              ? reconstructor_.reconstruct(images, follow)
-                                              : reconstructor_.reconstruct(images);
+    const Reconstruction reconstruction = follows_loops ? reconstructor_.reconstruct(images, follow)
+                                                        : reconstructor_.reconstruct(images);
     const Image<double> phase = reconstructor_.unwrapper().unwrap(reconstruction.pupil_field);
     const std::chrono::duration<double> elapsed = Clock::now() - start;
 
@@ -150,7 +149,7 @@ template <class Real>
 Performance run_screens(const Telescope& telescope, const SensorDesign& design,
                         const SimulationOptions& options, const PupilMask& truth_mask,
                         const std::vector<PhaseScreen>& screens, std::size_t first,
-                        std::size_t count, ImageCache& images) {
+                        std::size_t count, bool follows_loops, ImageCache& images) {
   const Experiment<Real> experiment(telescope, design, options, truth_mask, images);
   Performance performance;
   performance.screens.resize(count);
@@ -158,7 +157,7 @@ Performance run_screens(const Telescope& telescope, const SensorDesign& design,
   tbb::parallel_for(
       std::size_t{0}, count,
       [&](std::size_t i) {
-        performance.screens[i] = experiment.run(screens[first + i], first + i);
+        performance.screens[i] = experiment.run(screens[first + i], first + i, follows_loops);
       },
       tbb::simple_partitioner());
   return performance;
@@ -253,12 +252,21 @@ Performance Simulation::evaluate(const SensorDesign& design) const {
 
 Performance Simulation::evaluate(const SensorDesign& design, int first, int count) const {
   assert(first >= 0 && count >= 1 && first + count <= screen_count());
+  return run(design, static_cast<std::size_t>(first), static_cast<std::size_t>(count), false);
+}
+
+Performance Simulation::follow(SensorDesign design) const {
+  design.reconstruction.tolerance = 0.0;
+  return run(design, 0, screens_.size(), true);
+}
+
+Performance Simulation::run(const SensorDesign& design, std::size_t first, std::size_t count,
+                            bool follows_loops) const {
   const SensorDesign valid = checked(design);
-  const auto run =
+  const auto run_screens_of =
       options_.precision == Precision::double_precision ? run_screens<double> : run_screens<float>;
-  Performance performance =
-      run(telescope_, valid, options_, mask_, screens_, static_cast<std::size_t>(first),
-          static_cast<std::size_t>(count), images_);
+  Performance performance = run_screens_of(telescope_, valid, options_, mask_, screens_, first,
+                                           count, follows_loops, images_);
   for (const ScreenPerformance& screen : performance.screens) {
     if (!std::isfinite(screen.wavefront.residual_wfe) ||
         !std::isfinite(screen.wavefront.total_wfe)) {

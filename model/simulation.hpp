@@ -23,8 +23,6 @@ struct SimulationOptions {
   Precision precision = Precision::double_precision;
   std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
   LightSource source = {};
-  /// Fills ScreenPerformance::residual_after_loops, which costs an unwrapping for each loop.
-  bool follow_loops = false;
 };
 
 /// A design as it is simulated: with a matched or periodic truth the detector is as wide as the
@@ -60,6 +58,10 @@ class Simulation {
   /// Each screen's result is that of the evaluation on all of them.
   Performance evaluate(const SensorDesign& design, int first, int count) const;
 
+  /// The same with all of max_loops, whatever the tolerance, and with
+  /// ScreenPerformance::residual_after_loops, which costs an unwrapping for each loop.
+  Performance follow(SensorDesign design) const;
+
   /// See simulated_design.
   SensorDesign checked(SensorDesign design) const;
 
@@ -69,6 +71,9 @@ class Simulation {
   int truth_samples() const { return static_cast<int>(mask_.rows()); }
 
  private:
+  Performance run(const SensorDesign& design, std::size_t first, std::size_t count,
+                  bool follows_loops) const;
+
   Telescope telescope_;
   std::vector<PhaseScreen> screens_;
   SimulationOptions options_;

@@ -94,7 +94,6 @@ TrueLight::TrueLight(TruthModel model, const Telescope& telescope, const SensorD
                      int pupil_samples, const LightSource& source)
     : mask_(pupil_mask(pupil_samples, telescope.central_obscuration)) {
   const std::size_t count = design.planes.size();
-  source.validate(count);
   std::vector<double> distances;
   for (std::size_t plane = 0; plane < count; ++plane) {
     const double centre = source.band(plane, count, telescope.wavelength).centre();

@@ -40,6 +40,7 @@ class LightPath {
 class TrueLight {
  public:
   /// @param pupil_samples  m; for a matched truth the design's own
+  /// @pre the source is valid for the design's planes
   TrueLight(TruthModel model, const Telescope& telescope, const SensorDesign& design,
             int pupil_samples, const LightSource& source = {});
 

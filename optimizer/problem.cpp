@@ -16,6 +16,12 @@ int SubSpace::continuous_count() const {
   return static_cast<int>(std::ranges::count_if(variables, &Variable::is_continuous));
 }
 
+SearchPoint lowest_point(const SubSpace& sub_space, int index) {
+  SearchPoint point{index, Eigen::VectorXd(sub_space.variables.size())};
+  std::ranges::transform(sub_space.variables, point.x.begin(), &Variable::lower);
+  return point;
+}
+
 bool is_better(const EvaluatedDesign& a, const EvaluatedDesign& b) {
   if (a.violation != b.violation) return a.violation < b.violation;
   return a.cost < b.cost;

@@ -48,6 +48,10 @@ struct SearchPoint {
   Eigen::VectorXd x;  ///< one value per variable; of discrete ones a whole number
 };
 
+/// The point of a sub-space with all variables at the lower ends of their ranges.
+/// @param index  of the sub-space
+SearchPoint lowest_point(const SubSpace& sub_space, int index);
+
 /// A point and what it costs.
 struct EvaluatedDesign {
   SearchPoint point;

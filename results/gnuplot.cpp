@@ -1,5 +1,6 @@
 #include "results/gnuplot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -93,6 +94,25 @@ std::string gnuplot_text(std::string_view text) {
   }
   return quoted + "'";
 }
+
+std::string logarithmic_axis(std::string_view name, const std::vector<double>& values) {
+  constexpr double margin = 1.3;
+  const double least = std::ranges::min(values) / margin;
+  const double greatest = std::ranges::max(values) * margin;
+  std::string tics;
+  const auto last = static_cast<int>(std::floor(std::log10(greatest)));
+  for (auto decade = static_cast<int>(std::floor(std::log10(least))); decade <= last; ++decade) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double tic = factor * std::pow(10.0, decade);
+      if (tic < least || tic > greatest) continue;
+      tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", tic, tic);
+    }
+  }
+  return fmt::format("set logscale {0}\nset {0}range [{1}:{2}]\nset {0}tics out nomirror ({3})\n",
+                     name, least, greatest, tics);
+}
+
+double lower_end(double value, double error) { return std::max(value - error, 0.1 * value); }
 
 std::string data_block(std::string_view name, const std::string& rows) {
   return fmt::format("${} << END_OF_DATA\n{}END_OF_DATA\n", name, rows);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,6 +18,21 @@ struct GnuplotFigure {
 
 /// A text that gnuplot takes as it stands.
 std::string gnuplot_text(std::string_view text);
+
+/// Colours that are distinct for the colour-blind, as gnuplot reads them behind # (Okabe & Ito
+/// 2008).
+inline constexpr std::array<std::string_view, 5> distinct_colours{"0072b2", "d55e00", "009e73",
+                                                                  "cc79a7", "e69f00"};
+
+/// A logarithmic axis that reaches little further than its values, where gnuplot's own would end at
+/// whole decades, with round numbers on it.
+/// @param name    "x" or "y"
+/// @param values  at least one, all above 0
+std::string logarithmic_axis(std::string_view name, const std::vector<double>& values);
+
+/// The lower end of an error bar on such an axis, which has no place for an error as large as its
+/// value.
+double lower_end(double value, double error);
 
 /// A number as gnuplot reads it, also one that is not finite.
 std::string number_text(double value);

@@ -13,35 +13,12 @@
 namespace nlcwfs {
 namespace {
 
-/// Of Okabe & Ito (2008): distinct for the colour-blind.
-constexpr std::array palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00"};
 /// Of gnuplot's numbers: disc, square, triangle, diamond, inverted triangle, pentagon.
 constexpr std::array symbol_types{7, 5, 9, 13, 11, 15};
 
 std::string row_of(const ScatterPoint& point) {
-  // A logarithmic axis has no place for an error as large as its mean.
-  const double low = std::max(point.y.mean - point.y.standard_error, 0.1 * point.y.mean);
-  return fmt::format("{} {} {} {}\n", point.x, point.y.mean, low,
-                     point.y.mean + point.y.standard_error);
-}
-
-/// A logarithmic axis that reaches little further than its values, where gnuplot's own would end at
-/// whole decades, with round numbers on it.
-std::string axis(std::string_view name, const std::vector<double>& values) {
-  constexpr double margin = 1.3;
-  const double least = std::ranges::min(values) / margin;
-  const double greatest = std::ranges::max(values) * margin;
-  std::string tics;
-  const auto last = static_cast<int>(std::floor(std::log10(greatest)));
-  for (auto decade = static_cast<int>(std::floor(std::log10(least))); decade <= last; ++decade) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      const double tic = factor * std::pow(10.0, decade);
-      if (tic < least || tic > greatest) continue;
-      tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", tic, tic);
-    }
-  }
-  return fmt::format("set logscale {0}\nset {0}range [{1}:{2}]\nset {0}tics out nomirror ({3})\n",
-                     name, least, greatest, tics);
+  const auto [mean, error] = point.y;
+  return fmt::format("{} {} {} {}\n", point.x, mean, lower_end(mean, error), mean + error);
 }
 
 bool is_drawable(const ScatterPoint& point) { return point.x > 0.0 && point.y.mean > 0.0; }
@@ -61,7 +38,7 @@ std::vector<std::string> plot_points(const ScatterPicture& picture, std::string&
           "notitle",
           name, symbol_types[static_cast<std::size_t>(point.symbol) % symbol_types.size()],
           is_pale ? "b0" : "20",
-          palette[static_cast<std::size_t>(point.colour) % palette.size()] + 1));
+          distinct_colours[static_cast<std::size_t>(point.colour) % distinct_colours.size()]));
     }
   }
   return plots;
@@ -79,9 +56,10 @@ std::optional<std::string> write_picture(const ScatterPicture& picture,
     xs.push_back(point.x);
     ys.push_back(point.y.mean);
   }
-  std::string script = fmt::format(
-      "set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
-      gnuplot_text(picture.x_label), gnuplot_text(picture.y_label), axis("x", xs), axis("y", ys));
+  std::string script =
+      fmt::format("set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
+                  gnuplot_text(picture.x_label), gnuplot_text(picture.y_label),
+                  logarithmic_axis("x", xs), logarithmic_axis("y", ys));
   std::vector<std::string> plots = plot_points(picture, script);
   if (picture.marked && is_drawable(picture.points[*picture.marked])) {
     script += data_block("marked", row_of(picture.points[*picture.marked]));
@@ -91,10 +69,10 @@ std::optional<std::string> write_picture(const ScatterPicture& picture,
         gnuplot_text(picture.mark_label)));
   }
   for (std::size_t colour = 0; colour < picture.colours.size(); ++colour) {
-    plots.push_back(
-        fmt::format("NaN with points pointtype 7 pointsize 1 linecolor rgb '{}' title "
-                    "{}",
-                    palette[colour % palette.size()], gnuplot_text(picture.colours[colour])));
+    plots.push_back(fmt::format(
+        "NaN with points pointtype 7 pointsize 1 linecolor rgb '#{}' title "
+        "{}",
+        distinct_colours[colour % distinct_colours.size()], gnuplot_text(picture.colours[colour])));
   }
   for (std::size_t symbol = 0; symbol < picture.symbols.size(); ++symbol) {
     plots.push_back(fmt::format(

@@ -120,15 +120,11 @@ void run_convergence(const CommandLine& command_line) {
   std::vector<std::string> notes;
   const DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
   const SensorDesign design = trial.checked(design_of(configuration));
-  SimulationOptions followed = simulation_options_of(configuration, "simulation.precision");
-  followed.follow_loops = true;
-  const Simulation simulation(telescope, screens_of(configuration, notes), followed);
   RunRecord record(command_line);
 
   const TriedDesign tried = trial.run(design);
-  SensorDesign endless = design;
-  endless.reconstruction.tolerance = 0.0;  // all of max_loops
-  const std::vector<LoopResiduals> loops = residuals_of(simulation.evaluate(endless));
+  const std::vector<LoopResiduals> loops =
+      residuals_of(trial.conditions().front().simulation->follow(design));
   record.folder().write("convergence.csv", table_of(loops));
   const auto no_picture = write_picture(picture_of(loops, picture_title(telescope, seeing)),
                                         record.folder().file("convergence"));

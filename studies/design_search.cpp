@@ -7,9 +7,9 @@
 #include "studies/progress_line.hpp"
 #include "studies/search_log.hpp"
 #include "studies/settings.hpp"
+#include "studies/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 #include <stop_token>
 #include <utility>
@@ -18,12 +18,6 @@
 
 namespace nlcwfs {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The method, limits and seed of the section search.
 SearchOptions search_options_of(const Configuration& configuration,
@@ -74,10 +68,7 @@ void require_valid_designs(const DesignSpace& space, const DesignTrial& trial) {
   const std::vector<SubSpace> sub_spaces = space.sub_spaces();
   for (std::size_t s = 0; s < sub_spaces.size(); ++s) {
     const std::vector<Variable>& variables = sub_spaces[s].variables;
-    SearchPoint point{static_cast<int>(s), Eigen::VectorXd(variables.size())};
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      point.x[Eigen::Index(i)] = variables[i].lower;
-    }
+    const SearchPoint point = lowest_point(sub_spaces[s], static_cast<int>(s));
     trial.checked(space.design(point));
     for (std::size_t i = 0; i < variables.size(); ++i) {
       SearchPoint moved = point;
@@ -151,7 +142,7 @@ DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
   DesignSearchResult result;
   const InterruptWatch watch;
   std::vector<SearchPoint> starts = options.starts;
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   if (cheap_) {
     const SearchResult cheap = search_stage("cheap search", cheap_->space, cheap_->trial,
                                             cheap_->options, archive, quiet, result);
@@ -164,10 +155,10 @@ DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
   SearchOptions from_starts = options;
   from_starts.starts = starts;
   if (std::optional<double>& limit = from_starts.evaluation.time_limit) {
-    limit = std::max(0.0, *limit - seconds_since(start));
+    limit = std::max(0.0, *limit - stopwatch.seconds());
   }
   result.search = search_stage("search", space, trial, from_starts, archive, quiet, result);
-  result.search_seconds = seconds_since(start);
+  result.search_seconds = stopwatch.seconds();
   result.reconstructions = result.search_reconstructions;
 
   const auto verify = [&](const SensorDesign& candidate, const std::string& name) {

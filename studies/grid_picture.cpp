@@ -1,6 +1,7 @@
 #include "studies/grid_picture.hpp"
 
 #include "objectives/design_space.hpp"
+#include "results/json_numbers.hpp"
 #include "results/map_picture.hpp"
 
 #include <algorithm>
@@ -19,21 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// The numbers of nested arrays, the last index running fastest; NaN for null.
-void flatten(const Json& matrix, std::vector<double>& numbers) {
-  if (matrix.is_array()) {
-    for (const Json& element : matrix) flatten(element, numbers);
-  } else {
-    numbers.push_back(matrix.is_null() ? nan : matrix.get<double>());
-  }
-}
-
-std::vector<double> flattened(const Json& matrix) {
-  std::vector<double> numbers;
-  flatten(matrix, numbers);
-  return numbers;
-}
 
 /// A name of a summary for people, with its unit behind a comma: "total wfe, nm".
 std::string label_of(std::string_view name) {
@@ -164,7 +150,7 @@ DrawnGrid::DrawnGrid(const Json& grid) {
     count *= length(axis);
   }
 
-  const std::vector<double> costs = flattened(grid.at("cost"));
+  const std::vector<double> costs = numbers_from_json(grid.at("cost"));
   chosen_.assign(count, costs.size());
   for (std::size_t point = 0; point < costs.size(); ++point) {
     std::size_t rest = point;
@@ -184,7 +170,7 @@ DrawnGrid::DrawnGrid(const Json& grid) {
 }
 
 std::vector<double> DrawnGrid::values_of(const Json& matrix) const {
-  const std::vector<double> all = flattened(matrix);
+  const std::vector<double> all = numbers_from_json(matrix);
   std::vector<double> values;
   for (const std::size_t point : chosen_) values.push_back(all.at(point));
   return values;

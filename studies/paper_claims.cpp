@@ -1,6 +1,7 @@
 #include "studies/paper_claims.hpp"
 
 #include "model/telescope.hpp"
+#include "results/json_numbers.hpp"
 #include "studies/design_text.hpp"
 #include "studies/plane_map.hpp"
 
@@ -27,10 +28,6 @@ constexpr double clear = 2.0;
 
 double talbot_distance_of_seeing(double d_over_r0) {
   return talbot_distance(papers_telescope.diameter / d_over_r0, papers_telescope.wavelength);
-}
-
-MeanAndError mean_and_error_of(const Json& json) {
-  return {json.at("mean"), json.at("standard_error")};
 }
 
 /// The first minus the second of independent means.
@@ -303,7 +300,7 @@ class FifthPlane {
       if (axis.at("name") == "z5") distances_ = axis.at("values").get<std::vector<double>>();
     }
     for (const char* figure : {"residual_wfe_nm", "loops", "fft_count"}) {
-      flatten(grid.at(figure), values_[figure]);
+      values_[figure] = numbers_from_json(grid.at(figure));
     }
   }
 
@@ -335,17 +332,9 @@ class FifthPlane {
     return worst;
   }
 
-  MeanAndError four(const char* figure) const { return mean_and_error_of(four_.at(figure)); }
+  MeanAndError four(const char* figure) const { return mean_from_json(four_.at(figure)); }
 
  private:
-  static void flatten(const Json& matrix, std::vector<double>& values) {
-    if (matrix.is_array()) {
-      for (const Json& element : matrix) flatten(element, values);
-    } else {
-      values.push_back(matrix.is_null() ? nan : matrix.get<double>());
-    }
-  }
-
   const Json& four_;
   std::vector<double> distances_;
   std::map<std::string, std::vector<double>> values_;
@@ -486,7 +475,7 @@ ClaimFinding floor_grows(const Findings& findings) {
 
 ClaimFinding converges_later(const Findings& findings) {
   const auto loops = [&](std::string_view band) {
-    return mean_and_error_of(findings.performance("figure-8", std::string(band)).at("loops"));
+    return mean_from_json(findings.performance("figure-8", std::string(band)).at("loops"));
   };
   return {bands_text(loops) + " loops",
           verdict_of(grows(loops, is_clearly_above),

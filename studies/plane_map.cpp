@@ -1,8 +1,9 @@
 #include "studies/plane_map.hpp"
 
+#include "results/json_numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nlcwfs {
 namespace {
@@ -10,10 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double km = 1e3;
-
-double number_of(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
 
 /// Axes of one value stand around the two.
 const Json& element(const Json& matrix, std::size_t near, std::size_t far) {
@@ -38,12 +35,12 @@ PlaneMap::PlaneMap(const Json& grid) : grid_(grid) {
 }
 
 double PlaneMap::value(const std::string& figure, std::size_t near, std::size_t far) const {
-  return number_of(element(grid_.at(figure), near, far));
+  return number_from_json(element(grid_.at(figure), near, far));
 }
 
 MeanAndError PlaneMap::mean(const std::string& figure, std::size_t near, std::size_t far) const {
   return {value(figure, near, far),
-          number_of(element(grid_.at("standard_error").at(figure), near, far))};
+          number_from_json(element(grid_.at("standard_error").at(figure), near, far))};
 }
 
 double PlaneMap::mean_over(const std::string& figure,

@@ -2,6 +2,7 @@
 #include "results/csv_table.hpp"
 #include "results/curve_picture.hpp"
 #include "results/fits_cube.hpp"
+#include "results/json_numbers.hpp"
 #include "results/map_picture.hpp"
 #include "studies/design_text.hpp"
 #include "studies/paper_claims.hpp"
@@ -137,6 +138,8 @@ class Report {
 
   void add_text(const std::string& text) { text_ += text; }
   const std::string& text() const { return text_; }
+  /// Where there is no picture.
+  const std::vector<std::string>& notes() const { return notes_; }
 
   void add_maps(const std::string& run, int ratio, const std::string& title, bool has_time) {
     const Json& grid = runs_.summary(run).at("grid");
@@ -146,7 +149,7 @@ class Report {
     for (const auto& [figure, label] : figures) {
       std::string name = fmt::format("{}-{}", run, figure);
       std::ranges::replace(name, '/', '-');
-      draw_map(grid, figure, label, ratio, title, folder_.file(name));
+      note(draw_map(grid, figure, label, ratio, title, folder_.file(name)), name);
       write_map(grid, figure, figure == std::string_view("residual_wfe_nm") ? "nm" : "",
                 folder_.file(name + ".fits"));
       show(name, fmt::format("{}, {}", title, label));
@@ -196,8 +199,7 @@ class Report {
     CurvePicture picture{.title = fmt::format("D/r0 = 6, bands of Table 1, {}", title_of(setup)),
                          .x_label = "loops",
                          .y_label = "residual WFE, nm",
-                         .curves = {},
-                         .has_log_y = true};
+                         .curves = {}};
     CsvTable table(
         {"band", "loop", "residual_wfe_nm", "standard_error_nm", "standard_deviation_nm"});
     for (const PaperBand& band : paper_bands) {
@@ -233,12 +235,8 @@ class Report {
         const Json& performance = runs_.summary(fmt::format("numerics/{}-{}", variant.name, ratio))
                                       .at("design")
                                       .at("performance");
-        const auto figure = [&](const char* name) {
-          return MeanAndError{performance.at(name).at("mean"),
-                              performance.at(name).at("standard_error")};
-        };
-        const MeanAndError residual = figure("residual_wfe_nm");
-        const MeanAndError loops = figure("loops");
+        const MeanAndError residual = mean_from_json(performance.at("residual_wfe_nm"));
+        const MeanAndError loops = mean_from_json(performance.at("loops"));
         text_ += fmt::format(" {} nm, {} loops |", with_error(residual), with_error(loops));
         table.row()
             .add(variant.name)
@@ -257,9 +255,13 @@ class Report {
 
  private:
   void add_curves(const std::string& name, const CurvePicture& picture, const std::string& table) {
-    write_picture(picture, folder_.file(name));
+    note(write_picture(picture, folder_.file(name)), name);
     folder_.write(name + ".csv", table);
     show(name, picture.title);
+  }
+
+  void note(const std::optional<std::string>& no_picture, const std::string& name) {
+    if (no_picture) notes_.push_back(fmt::format("there is no {}.svg: {}", name, *no_picture));
   }
 
   void show(const std::string& name, const std::string& title) {
@@ -269,6 +271,7 @@ class Report {
   const OutputFolder& folder_;
   const ReproducedRuns& runs_;
   std::string text_;
+  std::vector<std::string> notes_;
 };
 
 // Claims ------------------------------------------------------------------------------------------
@@ -426,6 +429,7 @@ void run_reproduce(const CommandLine& command_line) {
        {"claims", claims_array(claims)},
        {"wall_seconds", std::chrono::duration<double>(Clock::now() - start).count()}});
 
+  for (const std::string& note : report.notes()) fmt::print("note: {}\n", note);
   for (const Claim& claim : claims) {
     fmt::print("Figure {}: {} ({})\n", claim.figure, claim.sentence, claim.papers);
     for (const Setup setup : setups) {

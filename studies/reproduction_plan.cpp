@@ -34,7 +34,7 @@ void set_defaults(Configuration& configuration,
 
 /// The paper's planes in its order, at the Fresnel numbers of its telescope.
 std::string papers_planes(const Telescope& telescope) {
-  std::vector<double> planes{-47 * km, 47 * km, -180 * km, 180 * km};
+  std::vector<double> planes = Configuration().lengths("baseline.planes");
   for (double& plane : planes) plane = scaled_distance(plane, Telescope(), telescope);
   return fmt::format("{}", fmt::join(planes, ","));
 }

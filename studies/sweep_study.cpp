@@ -2,12 +2,14 @@
 #include "optimizer/problem.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
+#include "results/json_numbers.hpp"
 #include "studies/design_text.hpp"
 #include "studies/grid_picture.hpp"
 #include "studies/interrupt.hpp"
 #include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
+#include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
 #include "studies/sweep_grid.hpp"
 #include "studies/trial_summary.hpp"
@@ -15,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -33,16 +34,11 @@
 namespace nlcwfs {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
 /// Designs that are tried together: enough for many cores, as each is parallel in itself, and few
 /// enough that neighbours on the grid, which share planes, find each other's images.
 constexpr std::size_t batch_size = 16;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// What the configuration asks for, checked as a whole before anything is written.
 struct Task {
@@ -108,33 +104,24 @@ struct Outcome {
   std::string failure = {};                ///< why there is none of these
 };
 
-/// JSON has no number for what is not finite.
-double number_of(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-
-MeanAndError mean_and_error_of(const Json& json) {
-  return {number_of(json.at("mean")), number_of(json.at("standard_error"))};
-}
-
 Outcome outcome_of(const ArchivedEvaluation& evaluation, const Task& task) {
   if (!evaluation.failure.empty()) return {.failure = evaluation.failure};
   const Json performance = Json::parse(evaluation.performance);
-  Outcome outcome{.cost = mean_and_error_of(performance.at("cost")),
-                  .violation = number_of(performance.at("violation")),
+  Outcome outcome{.cost = mean_from_json(performance.at("cost")),
+                  .violation = number_from_json(performance.at("violation")),
                   .elapsed = performance.at("elapsed_seconds")};
   for (const DesignMetric& metric : task.metrics) {
     outcome.metrics.push_back(
-        mean_and_error_of(performance.at("metrics").at(std::string(metric.name))));
+        mean_from_json(performance.at("metrics").at(std::string(metric.name))));
   }
   return outcome;
 }
 
 /// Tries a design; one that cannot be tried has a failure.
-/// @param elapsed_before  of the sweep before `sweep_start`, s
+/// @param elapsed_before  of the sweep before `sweep_stopwatch`, s
 ArchivedEvaluation evaluation_of(const GridDesign& design, const Task& task,
-                                 Clock::time_point sweep_start, double elapsed_before) {
-  const auto start = Clock::now();
+                                 const Stopwatch& sweep_stopwatch, double elapsed_before) {
+  const Stopwatch stopwatch;
   ArchivedEvaluation evaluation{
       .stage = "sweep",
       .design = to_json(design.design, task.telescope, task.seeing.fried_parameter).dump(),
@@ -157,14 +144,14 @@ ArchivedEvaluation evaluation_of(const GridDesign& design, const Task& task,
       performance["metrics"][std::string(metric.name)] = to_json(task.trial.mean_of(tried, metric));
     }
     performance["violation"] = tried.violation;
-    performance["elapsed_seconds"] = elapsed_before + seconds_since(sweep_start);
+    performance["elapsed_seconds"] = elapsed_before + sweep_stopwatch.seconds();
     evaluation.performance = performance.dump();
   } catch (const std::bad_alloc&) {
     throw;  // of the machine, not the design
   } catch (const std::exception& error) {
     evaluation.failure = error.what();
   }
-  evaluation.seconds = seconds_since(start);
+  evaluation.seconds = stopwatch.seconds();
   return evaluation;
 }
 
@@ -238,16 +225,16 @@ void Sweep::run(bool quiet) {
   }
   const std::size_t done_before = done_;
   const double elapsed_before = elapsed();
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   for (std::size_t first = 0; first < missing.size(); first += batch_size) {
     tbb::parallel_for(first, std::min(first + batch_size, missing.size()), [&](std::size_t i) {
       if (InterruptWatch::interrupted()) return;
       const ArchivedEvaluation evaluation =
-          evaluation_of(designs_[missing[i]], task_, start, elapsed_before);
+          evaluation_of(designs_[missing[i]], task_, stopwatch, elapsed_before);
       const std::scoped_lock lock(lock_);
       record_.archive().add(evaluation);
       add(missing[i], evaluation);
-      progress.show(progress_text(done_ - done_before, seconds_since(start)));
+      progress.show(progress_text(done_ - done_before, stopwatch.seconds()));
     });
   }
 }
@@ -449,7 +436,7 @@ void run_sweep(const CommandLine& command_line) {
                command_line.resume->string());
     return;
   }
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   const Task task(configuration);
   RunRecord record(command_line);
   const std::string folder = record.folder().path().string();
@@ -497,7 +484,7 @@ void run_sweep(const CommandLine& command_line) {
         (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
          static_cast<std::int64_t>(ranking.size()) * task.verification.screen_count()) *
             static_cast<std::int64_t>(task.trial.conditions().size())},
-       {"wall_seconds", seconds_before + seconds_since(start)},
+       {"wall_seconds", seconds_before + stopwatch.seconds()},
        {"search_seconds", sweep.elapsed()}});
 
   const Performance performance = pooled(best.performances);

@@ -47,10 +47,7 @@ double greatest(const DesignSpace& space, const Figure& figure) {
   const std::vector<SubSpace> sub_spaces = space.sub_spaces();
   for (std::size_t s = 0; s < sub_spaces.size(); ++s) {
     const std::vector<Variable>& variables = sub_spaces[s].variables;
-    SearchPoint point{static_cast<int>(s), Eigen::VectorXd(variables.size())};
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      point.x[Eigen::Index(i)] = variables[i].lower;
-    }
+    SearchPoint point = lowest_point(sub_spaces[s], static_cast<int>(s));
     double best = 0.0;
     for (std::size_t i = 0; i < variables.size(); ++i) {
       SearchPoint moved = point;

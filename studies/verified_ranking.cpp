@@ -4,23 +4,17 @@
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
 #include "studies/progress_line.hpp"
+#include "studies/stopwatch.hpp"
 #include "studies/trial_summary.hpp"
 #include "studies/units.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string_view word_for(Verdict verdict) {
   switch (verdict) {
@@ -47,7 +41,7 @@ TriedDesign verified_design(const SensorDesign& design, const std::string& name,
   ProgressLine progress(quiet);
   progress.show(
       fmt::format("verification: {} on {} fresh screens", name, verification.screen_count()));
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   TriedDesign tried = verification.run(design);
   const Condition& first = verification.conditions().front();
   archive.add(
@@ -55,7 +49,7 @@ TriedDesign verified_design(const SensorDesign& design, const std::string& name,
        .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
        .cost = mean_and_standard_error(tried.costs).mean,
        .failure = "",
-       .seconds = seconds_since(start),
+       .seconds = stopwatch.seconds(),
        .performance = to_json(pooled(tried.performances)).dump(),
        .key = design_key(design)});
   return tried;

@@ -361,9 +361,10 @@ TEST(Simulation, APeriodicTruthIsBinnedToThePixels) {
 }
 
 TEST(Simulation, FollowsTheResidualFromLoopToLoop) {
-  const SimulationOptions followed{.follow_loops = true};
-  const Performance with = evaluate(small_design(), turbulence(3), followed);
-  const Performance without = evaluate(small_design(), turbulence(3));
+  SensorDesign endless = small_design();
+  endless.reconstruction.tolerance = 0.0;
+  const Performance with = Simulation({}, turbulence(3), {}).follow(small_design());
+  const Performance without = evaluate(endless, turbulence(3));
   expect_equal(with, without);
   for (std::size_t i = 0; i < with.screens.size(); ++i) {
     const ScreenPerformance& screen = with.screens[i];
