@@ -99,10 +99,13 @@ std::string logarithmic_axis(std::string_view name, const std::vector<double>& v
   constexpr double margin = 1.3;
   const double least = std::ranges::min(values) / margin;
   const double greatest = std::ranges::max(values) * margin;
+  // More would stand on each other.
+  const std::vector<double> factors =
+      greatest > 1e4 * least ? std::vector{1.0} : std::vector{1.0, 2.0, 5.0};
   std::string tics;
   const auto last = static_cast<int>(std::floor(std::log10(greatest)));
   for (auto decade = static_cast<int>(std::floor(std::log10(least))); decade <= last; ++decade) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
+    for (const double factor : factors) {
       const double tic = factor * std::pow(10.0, decade);
       if (tic < least || tic > greatest) continue;
       tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", tic, tic);
