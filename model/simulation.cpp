@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -258,6 +259,15 @@ Performance Simulation::evaluate(const SensorDesign& design, int first, int coun
 Performance Simulation::follow(SensorDesign design) const {
   design.reconstruction.tolerance = 0.0;
   return run(design, 0, screens_.size(), true);
+}
+
+std::vector<double> Simulation::aberrations() const {
+  std::vector<double> aberrations;
+  for (const PhaseScreen& screen : screens_) {
+    aberrations.push_back(piston_free_rms(screen, mask_) * telescope_.wavelength /
+                          (2.0 * std::numbers::pi));
+  }
+  return aberrations;
 }
 
 Performance Simulation::run(const SensorDesign& design, std::size_t first, std::size_t count,

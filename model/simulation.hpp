@@ -66,6 +66,8 @@ class Simulation {
   SensorDesign checked(SensorDesign design) const;
 
   const Telescope& telescope() const { return telescope_; }
+  /// RMS of each true wavefront over the pupil, piston removed, m of optical path.
+  std::vector<double> aberrations() const;
   int screen_count() const { return static_cast<int>(screens_.size()); }
   /// Samples of the true field across the diameter.
   int truth_samples() const { return static_cast<int>(mask_.rows()); }

@@ -83,6 +83,9 @@ po::options_description general_options() {
   add("output", "DIR", "write the results there [results/<command>-<n>]");
   add("resume", "DIR",
       "sweep, reproduce: go on with the interrupted run in this folder, as it is configured");
+  add("figure", "N",
+      "reproduce: run only this figure of the paper, or another part that reproduce.figures knows; "
+      "may be given several times");
   add("threads", "N", "use this many cores, 0 = all [0]");
   add_flag("quiet", "print no progress");
   add_flag("verify", "advise: simulate the design on fresh screens, as the section verify says");
@@ -287,6 +290,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine result;
   std::optional<std::string> preset;
   std::vector<std::string> files;
+  std::vector<std::string> figures;
   std::vector<std::pair<std::string, std::string>> values;
   std::set<std::string> seen;
   for (const po::option& option : parse_options(argc, argv, known)) {
@@ -296,7 +300,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       parse_positional(value, result, known);
       continue;
     }
-    if (!seen.insert(key).second && key != "config") {
+    if (!seen.insert(key).second && key != "config" && key != "figure") {
       throw InputError("command line",
                        one_line(fmt::format("{}", fmt::join(option.original_tokens, " "))),
                        "given twice; keep one of them");
@@ -308,6 +312,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       refuse_missing_value("--" + key);
     } else if (key == "config") {
       files.push_back(value);
+    } else if (key == "figure") {
+      figures.push_back(value);
     } else if (key == "preset") {
       preset = value;
     } else if (key == "output") {
@@ -322,6 +328,19 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   }
   if (result.help || result.version) return result;
   require_whole_command(result);
+  if (!figures.empty()) {
+    const std::string list = fmt::format("{}", fmt::join(figures, ","));
+    if (result.command != "reproduce") {
+      throw InputError(
+          "command line", one_line("--figure " + list),
+          fmt::format("only reproduce takes it; leave it away with {}", result.command));
+    }
+    if (seen.contains("reproduce.figures")) {
+      throw InputError("command line", one_line("--figure " + list),
+                       "reproduce.figures is given too; keep one of them");
+    }
+    values.emplace_back("reproduce.figures", list);
+  }
   if (result.resume) {
     const bool configured = preset || !files.empty() || !values.empty() || result.output;
     result.configuration = resumed_configuration(result, configured);

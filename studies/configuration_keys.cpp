@@ -632,12 +632,7 @@ std::vector<ConfigurationKey> make_keys() {
       {.name = "reproduce.grid",
        .kind = Kind::integer,
        .default_text = "32",
-       .description = "Distances on each axis of the maps in the paper's set-up, up to 250 km.",
-       .bounds = from_to(4, 256)},
-      {.name = "reproduce.extended_grid",
-       .kind = Kind::integer,
-       .default_text = "16",
-       .description = "The same with an extended truth.",
+       .description = "Distances on each axis of the maps of reproduce, up to 250 km.",
        .bounds = from_to(4, 256)},
 
       {.name = "response.frequencies",

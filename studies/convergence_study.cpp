@@ -123,13 +123,16 @@ void run_convergence(const CommandLine& command_line) {
   RunRecord record(command_line);
 
   const TriedDesign tried = trial.run(design);
-  const std::vector<LoopResiduals> loops =
-      residuals_of(trial.conditions().front().simulation->follow(design));
+  const Simulation& simulation = *trial.conditions().front().simulation;
+  const std::vector<LoopResiduals> loops = residuals_of(simulation.follow(design));
+  std::vector<double> aberrations = simulation.aberrations();
+  for (double& aberration : aberrations) aberration /= nm;
   record.folder().write("convergence.csv", table_of(loops));
   const auto no_picture = write_picture(picture_of(loops, picture_title(telescope, seeing)),
                                         record.folder().file("convergence"));
-  record.write_summary(
-      {{"design", to_json(tried, trial)}, {"residual_after_loops_nm", residuals_object(loops)}});
+  record.write_summary({{"design", to_json(tried, trial)},
+                        {"aberrations_nm", aberrations},
+                        {"residual_after_loops_nm", residuals_object(loops)}});
 
   for (const std::string& note : notes) record.print("note: {}\n", note);
   if (no_picture) record.print("note: there is no picture: {}\n", *no_picture);

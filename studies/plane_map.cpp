@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nlcwfs {
 namespace {
@@ -59,6 +60,17 @@ double PlaneMap::mean_over(const std::string& figure,
   return sum / count;  // NaN without any
 }
 
+double PlaneMap::greatest_over(const std::string& figure,
+                               const std::function<bool(double near, double far)>& wanted) const {
+  double greatest = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    for (std::size_t k = 0; k < far_.size(); ++k) {
+      if (wanted(near_[i], far_[k])) greatest = std::fmax(greatest, value(figure, i, k));
+    }
+  }
+  return greatest;
+}
+
 double PlaneMap::lowest(const std::string& figure) const {
   double lowest = HUGE_VAL;
   for (std::size_t i = 0; i < near_.size(); ++i) {
@@ -69,12 +81,16 @@ double PlaneMap::lowest(const std::string& figure) const {
   return lowest;
 }
 
+double PlaneMap::mean_at_near(const std::string& figure, std::size_t near) const {
+  return mean_over(figure, [&](double z_near, double z_far) {
+    return z_near == near_[near] && z_far >= 100 * km && z_far > 1.5 * z_near;
+  });
+}
+
 std::size_t PlaneMap::valley() const {
   std::vector<double> loops;
-  for (const double here : near_) {
-    const double mean = mean_over("loops", [&](double near, double far) {
-      return near == here && far >= 100 * km && far > 1.5 * near;
-    });
+  for (std::size_t near = 0; near < near_.size(); ++near) {
+    const double mean = mean_at_near("loops", near);
     loops.push_back(std::isfinite(mean) ? mean : HUGE_VAL);
   }
   return static_cast<std::size_t>(std::ranges::min_element(loops) - loops.begin());
@@ -93,7 +109,6 @@ double PlaneMap::least_good_far() const {
   return least;
 }
 
-std::size_t PlaneMap::nearest_near(double distance) const { return nearest(near_, distance); }
 std::size_t PlaneMap::nearest_far(double distance) const { return nearest(far_, distance); }
 
 }  // namespace nlcwfs

@@ -29,18 +29,25 @@ class PlaneMap {
   double mean_over(const std::string& figure,
                    const std::function<bool(double near, double far)>& wanted) const;
 
+  /// The greatest of the points that are wanted; NaN where there is none.
+  double greatest_over(const std::string& figure,
+                       const std::function<bool(double near, double far)>& wanted) const;
+
   /// The lowest of the map.
   double lowest(const std::string& figure) const;
 
-  /// The near distance at which the loops, averaged over far distances from 100 km on, are fewest:
-  /// the valley of Letchev et al. 2022, section 3.2.
+  /// A figure's mean over the far distances from 100 km on that are clear of the near one; NaN
+  /// where there is none.
+  double mean_at_near(const std::string& figure, std::size_t near) const;
+
+  /// The near distance at which the loops' mean_at_near is least: the valley of Letchev et al.
+  /// 2022, section 3.2.
   std::size_t valley() const;
 
   /// The least far distance from which on the loops in the valley stay within a tenth of their
   /// fewest, m.
   double least_good_far() const;
 
-  std::size_t nearest_near(double distance) const;
   std::size_t nearest_far(double distance) const;
 
  private:

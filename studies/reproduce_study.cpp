@@ -79,24 +79,40 @@ void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::pat
 
 // Pictures ----------------------------------------------------------------------------------------
 
-/// A figure of a two-axis sweep as the paper draws it: Z_far to the right, Z_near upwards, with the
-/// Talbot distance of r0 on both.
-std::optional<std::string> draw_map(const Json& grid, const char* figure, const char* label,
-                                    int ratio, const std::string& title,
+/// A quantity over the distances of two pairs of planes; NaN where there is no design.
+struct DistanceMap {
+  std::string label;  ///< ends with the unit
+  std::string unit;   ///< as FITS has it
+  const PlaneMap& places;
+  Image<double> values;  ///< rows: near, columns: far
+};
+
+/// @param figure  as the grid of a sweep's summary names it
+/// @param scale   what its values are multiplied by
+DistanceMap distance_map(const PlaneMap& map, const char* figure, double scale,
+                         const std::string& label, const std::string& unit) {
+  Image<double> values(map.near().size(), map.far().size());
+  for (std::size_t near = 0; near < map.near().size(); ++near) {
+    for (std::size_t far = 0; far < map.far().size(); ++far) {
+      values(Eigen::Index(near), Eigen::Index(far)) = scale * map.value(figure, near, far);
+    }
+  }
+  return {label, unit, map, std::move(values)};
+}
+
+/// As the paper draws it: Z_far to the right, Z_near upwards, with the Talbot distance of r0 on
+/// both.
+std::optional<std::string> draw_map(const DistanceMap& map, int ratio, const std::string& title,
                                     const std::filesystem::path& stem) {
   MapPicture picture{.title = title,
                      .x = {.label = "Z_far, km", .values = {}},
                      .y = {.label = "Z_near, km", .values = {}},
-                     .value_label = label,
+                     .value_label = map.label,
                      .values = {}};
-  const PlaneMap map(grid);
-  for (const double far : map.far()) picture.x.values.push_back(far / km);
-  for (const double near : map.near()) picture.y.values.push_back(near / km);
-  for (std::size_t far = 0; far < map.far().size(); ++far) {
-    picture.values.emplace_back();
-    for (std::size_t near = 0; near < map.near().size(); ++near) {
-      picture.values.back().push_back(map.value(figure, near, far));
-    }
+  for (const double far : map.places.far()) picture.x.values.push_back(far / km);
+  for (const double near : map.places.near()) picture.y.values.push_back(near / km);
+  for (const auto far : map.values.colwise()) {
+    picture.values.emplace_back(far.begin(), far.end());
   }
   const Telescope telescope;
   const double talbot = talbot_distance(telescope.diameter / ratio, telescope.wavelength) / km;
@@ -106,16 +122,8 @@ std::optional<std::string> draw_map(const Json& grid, const char* figure, const 
   return write_picture(picture, stem);
 }
 
-/// The same as a FITS image, NaN where there is no design: Z_far along axis 1, Z_near along axis 2.
-void write_map(const Json& grid, const char* figure, const std::string& unit,
-               const std::filesystem::path& path) {
-  const PlaneMap map(grid);
-  Image<double> values(map.near().size(), map.far().size());
-  for (std::size_t near = 0; near < map.near().size(); ++near) {
-    for (std::size_t far = 0; far < map.far().size(); ++far) {
-      values(Eigen::Index(near), Eigen::Index(far)) = map.value(figure, near, far);
-    }
-  }
+/// As a FITS image: Z_far along axis 1, Z_near along axis 2.
+void write_map(const DistanceMap& map, const std::filesystem::path& path) {
   std::vector<FitsKeyword> keywords;
   const auto add_axis = [&](int number, const char* name, const std::vector<double>& distances) {
     keywords.push_back({fmt::format("CTYPE{}", number), std::string(name), "distance of a pair"});
@@ -125,44 +133,122 @@ void write_map(const Json& grid, const char* figure, const std::string& unit,
     keywords.push_back(
         {fmt::format("CDELT{}", number), distances[1] - distances[0], "to the next distance"});
   };
-  add_axis(1, "Z_FAR", map.far());
-  add_axis(2, "Z_NEAR", map.near());
+  add_axis(1, "Z_FAR", map.places.far());
+  add_axis(2, "Z_NEAR", map.places.near());
   std::filesystem::remove(path);  // of a report that was interrupted
-  write_fits_cube(path, {unit, {values}}, keywords);
+  write_fits_cube(path, {map.unit, {map.values}}, keywords);
 }
 
-/// What a reproduction leaves beside its runs.
+/// What the maps hold, with standard errors, one line for each design.
+std::string map_table(const PlaneMap& map) {
+  CsvTable table({"z_near_m", "z_far_m", "residual_wfe_nm", "residual_wfe_standard_error_nm",
+                  "loops", "loops_standard_error"});
+  for (std::size_t near = 0; near < map.near().size(); ++near) {
+    for (std::size_t far = 0; far < map.far().size(); ++far) {
+      const MeanAndError residual = map.mean("residual_wfe_nm", near, far);
+      const MeanAndError loops = map.mean("loops", near, far);
+      if (!std::isfinite(residual.mean)) continue;
+      table.row()
+          .add(map.near()[near])
+          .add(map.far()[far])
+          .add(residual.mean)
+          .add(residual.standard_error)
+          .add(loops.mean)
+          .add(loops.standard_error);
+    }
+  }
+  return table.text();
+}
+
+/// What a reproduction leaves beside its runs, so that the folder without them is a whole.
 class Report {
  public:
-  Report(const OutputFolder& folder, const ReproducedRuns& runs) : folder_(folder), runs_(runs) {}
+  /// @param screens  of the reproduction
+  Report(const OutputFolder& folder, const ReproducedRuns& runs, int screens)
+      : folder_(folder), runs_(runs), screens_(screens) {}
 
   void add_text(const std::string& text) { text_ += text; }
   const std::string& text() const { return text_; }
   /// Where there is no picture.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  void add_maps(const std::string& run, int ratio, const std::string& title, bool has_time) {
-    const Json& grid = runs_.summary(run).at("grid");
-    std::vector<std::pair<const char*, const char*>> figures{
-        {"residual_wfe_nm", "residual WFE, nm"}, {"loops", "loops"}};
-    if (has_time) figures.emplace_back("fft_count", "Fourier transforms per reconstruction");
-    for (const auto& [figure, label] : figures) {
-      std::string name = fmt::format("{}-{}", run, figure);
-      std::ranges::replace(name, '/', '-');
-      note(draw_map(grid, figure, label, ratio, title, folder_.file(name)), name);
-      write_map(grid, figure, figure == std::string_view("residual_wfe_nm") ? "nm" : "",
-                folder_.file(name + ".fits"));
-      show(name, fmt::format("{}, {}", title, label));
-    }
+  void add_maps(const std::string& run, int ratio, const std::string& title) {
+    const PlaneMap map(runs_.summary(run).at("grid"));
+    const std::string name = flat_name(run);
+    folder_.write(name + ".csv", map_table(map));
+    add_map(distance_map(map, "residual_wfe_nm", 1.0, "residual WFE, nm", "nm"), ratio, title,
+            name + "-residual_wfe");
+    add_map(distance_map(map, "loops", 1.0, "loops", ""), ratio, title, name + "-loops");
+  }
+
+  /// The time as the paper has it: the loops, by the time that one takes.
+  /// @param design  whose loop is timed
+  void add_time(const std::string& run, const std::string& design, int ratio,
+                const std::string& title) {
+    const PlaneMap map(runs_.summary(run).at("grid"));
+    const Json& performance = runs_.summary("designs/" + design).at("design").at("performance");
+    const double milliseconds = 1e3 * mean_from_json(performance.at("seconds")).mean /
+                                mean_from_json(performance.at("loops")).mean;
+    add_map(distance_map(map, "loops", milliseconds, "approximate time, ms", "ms"), ratio, title,
+            "figure-4-" + design + "-time");
+    text_ += fmt::format("{:.3g} ms a loop.\n\n", milliseconds);
   }
 
   void add_fifth_plane(Setup setup) {
-    const std::string run = fmt::format("figure-5/{}", to_string(setup));
-    for (const char* figure : {"residual_wfe", "fractional_loops"}) {
-      text_ += fmt::format("![{} of five planes, {}]({}/map-{}.png)\n", figure, title_of(setup),
-                           run, figure);
+    const Json& grid = runs_.summary(fmt::format("figure-5/{}", to_string(setup))).at("grid");
+    const Json& four = runs_.summary(fmt::format("designs/{}-four-planes", to_string(setup)))
+                           .at("design")
+                           .at("performance");
+    const Json& axes = grid.at("axes");
+    const auto fifth =
+        std::ranges::find_if(axes, [](const Json& axis) { return axis.at("name") == "z5"; });
+    const std::vector<double> distances = numbers_from_json(fifth->at("values"));
+    const std::pair<const char*, const char*> figures[]{{"residual_wfe_nm", "residual WFE, nm"},
+                                                        {"loops", "loops"}};
+    CsvTable table({"z5_m", "residual_wfe_nm", "residual_wfe_standard_error_nm", "loops",
+                    "loops_standard_error"});
+    std::vector<std::vector<MeanAndError>> means;
+    for (const auto& [figure, label] : figures) {
+      const std::vector<double> values = numbers_from_json(grid.at(figure));
+      const std::vector<double> errors = numbers_from_json(grid.at("standard_error").at(figure));
+      Curve five{.label = "five planes", .spread = errors};
+      for (const double distance : distances) five.x.push_back(distance / km);
+      five.y = values;
+      const double of_four = mean_from_json(four.at(figure)).mean;
+      const Curve line{.label = "four planes",
+                       .x = {five.x.front(), five.x.back()},
+                       .y = {of_four, of_four},
+                       .colour = 1};
+      CurvePicture picture{.title = fmt::format("Fifth plane, {}", title_of(setup)),
+                           .x_label = "Z_5, km",
+                           .y_label = label,
+                           .curves = {std::move(five), line}};
+      std::string name = fmt::format("figure-5-{}-{}", to_string(setup), figure);
+      draw_curves(name, picture);
+      means.emplace_back();
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        means.back().push_back({values[i], errors[i]});
+      }
     }
-    text_ += '\n';
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      table.row().add(distances[i]);
+      for (const std::vector<MeanAndError>& of_figure : means) {
+        table.add(of_figure[i].mean).add(of_figure[i].standard_error);
+      }
+    }
+    folder_.write(fmt::format("figure-5-{}.csv", to_string(setup)), table.text());
+  }
+
+  /// A picture and a table that a run has made.
+  void add_from(const std::string& run, const std::string& file, const std::string& name,
+                const std::string& title) {
+    for (const char* kind : {".png", ".svg", ".csv"}) {
+      const std::filesystem::path made = folder_.path() / run / (file + kind);
+      if (!std::filesystem::exists(made)) continue;  // no gnuplot, or no table of its own
+      std::filesystem::copy_file(made, folder_.file(name + kind),
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
+    show(name, title);
   }
 
   void add_sampling(Setup setup) {
@@ -192,7 +278,9 @@ class Report {
       }
       picture.curves.push_back(std::move(curve));
     }
-    add_curves(fmt::format("figure-6-{}", to_string(setup)), picture, table.text());
+    const std::string name = fmt::format("figure-6-{}", to_string(setup));
+    draw_curves(name, picture);
+    folder_.write(name + ".csv", table.text());
   }
 
   void add_broadband(Setup setup) {
@@ -220,7 +308,9 @@ class Report {
       }
       picture.curves.push_back(std::move(curve));
     }
-    add_curves(fmt::format("figure-8-{}", to_string(setup)), picture, table.text());
+    const std::string name = fmt::format("figure-8-{}", to_string(setup));
+    draw_curves(name, picture);
+    folder_.write(name + ".csv", table.text());
   }
 
   void add_numerics() {
@@ -229,7 +319,7 @@ class Report {
     text_ += "| changed from the paper's set-up |";
     for (const int ratio : map_ratios) text_ += fmt::format(" D/r0 = {} |", ratio);
     text_ += "\n|---|---|---|---|\n";
-    for (const NamedSettings& variant : numerical_variants()) {
+    for (const NamedSettings& variant : numerical_variants(screens_)) {
       text_ += fmt::format("| {} |", variant.name);
       for (const int ratio : map_ratios) {
         const Json& performance = runs_.summary(fmt::format("numerics/{}-{}", variant.name, ratio))
@@ -254,10 +344,22 @@ class Report {
   }
 
  private:
-  void add_curves(const std::string& name, const CurvePicture& picture, const std::string& table) {
+  /// "figure-3/paper-4" as part of a file's name.
+  static std::string flat_name(std::string run) {
+    std::ranges::replace(run, '/', '-');
+    return run;
+  }
+
+  void add_map(const DistanceMap& map, int ratio, const std::string& title,
+               const std::string& name) {
+    note(draw_map(map, ratio, title, folder_.file(name)), name);
+    write_map(map, folder_.file(name + ".fits"));
+    show(name, fmt::format("{}, {}", title, map.label));
+  }
+
+  void draw_curves(const std::string& name, const CurvePicture& picture) {
     note(write_picture(picture, folder_.file(name)), name);
-    folder_.write(name + ".csv", table);
-    show(name, picture.title);
+    show(name, fmt::format("{}, {}", picture.title, picture.y_label));
   }
 
   void note(const std::optional<std::string>& no_picture, const std::string& name) {
@@ -270,6 +372,7 @@ class Report {
 
   const OutputFolder& folder_;
   const ReproducedRuns& runs_;
+  int screens_;
   std::string text_;
   std::vector<std::string> notes_;
 };
@@ -344,7 +447,7 @@ void add_figures(Report& report, const std::vector<std::string>& figures) {
     for (const Setup setup : setups) {
       for (const int ratio : map_ratios) {
         report.add_maps(fmt::format("figure-3/{}-{}", to_string(setup), ratio), ratio,
-                        fmt::format("Four planes, D/r0 = {}, {}", ratio, title_of(setup)), false);
+                        fmt::format("Four planes, D/r0 = {}, {}", ratio, title_of(setup)));
       }
       report.add_text("\n");
     }
@@ -352,18 +455,24 @@ void add_figures(Report& report, const std::vector<std::string>& figures) {
   if (wants("4")) {
     report.add_text("## Figure 4: three planes\n\n");
     for (const Setup setup : setups) {
-      for (const char* without : {"p3", "p1"}) {
-        report.add_maps(fmt::format("figure-4/{}-without-{}", to_string(setup), without), 4,
-                        fmt::format("Without {}, D/r0 = 4, {}", without, title_of(setup)), true);
+      const std::array<std::array<std::string, 3>, 3> maps{
+          {{"figure-4/{}-without-p3", "{}-without-p3", "Without P3"},
+           {"figure-4/{}-without-p1", "{}-without-p1", "Without P1"},
+           {"figure-3/{}-4", "{}-four-planes", "Four planes"}}};
+      for (const auto& [run, design, planes] : maps) {
+        const auto of_setup = [&](const std::string& name) {
+          return fmt::format(fmt::runtime(name), to_string(setup));
+        };
+        const std::string title = fmt::format("{}, D/r0 = 4, {}", planes, title_of(setup));
+        report.add_maps(of_setup(run), 4, title);
+        report.add_time(of_setup(run), of_setup(design), 4, title);
       }
-      report.add_maps(fmt::format("figure-3/{}-4", to_string(setup)), 4,
-                      fmt::format("Four planes, D/r0 = 4, {}", title_of(setup)), true);
-      report.add_text("\n");
     }
   }
   if (wants("5")) {
     report.add_text("## Figure 5: a fifth plane\n\n");
     for (const Setup setup : setups) report.add_fifth_plane(setup);
+    report.add_text("\n");
   }
   if (wants("6")) {
     report.add_text("## Figure 6: sampling\n\n");
@@ -373,8 +482,9 @@ void add_figures(Report& report, const std::vector<std::string>& figures) {
   if (wants("7")) {
     report.add_text("## Figure 7: medium band, each aberration\n\n");
     for (const Setup setup : setups) {
-      report.add_text(fmt::format("![medium band, {}](figure-8/{}-medium/convergence.png)\n",
-                                  title_of(setup), to_string(setup)));
+      report.add_from(fmt::format("figure-8/{}-medium", to_string(setup)), "convergence",
+                      fmt::format("figure-7-{}", to_string(setup)),
+                      fmt::format("Medium band, {}", title_of(setup)));
     }
     report.add_text("\n");
   }
@@ -384,11 +494,16 @@ void add_figures(Report& report, const std::vector<std::string>& figures) {
     report.add_text("\n");
   }
   if (wants("response")) {
-    report.add_text(
-        "## Response to single spatial frequencies\n\n"
-        "![response of the paper's planes](response/noise-free/response.png)\n"
-        "![with photon noise](response/photons/response.png)\n"
-        "![recovered by pairs](response/noise-free/response-map-recovered.png)\n\n");
+    report.add_text("## Response to single spatial frequencies\n\n");
+    report.add_from("response/noise-free", "response", "response", "The paper's planes");
+    report.add_from("response/photons", "response", "response-photons", "With photon noise");
+    report.add_from("response/noise-free", "response-map-recovered", "response-pairs",
+                    "Pairs of planes: recovered share");
+    report.add_from("response/noise-free", "response-map-residual", "response-pairs-residual",
+                    "Pairs of planes: residual WFE");
+    report.add_from("response/noise-free", "response-map-loops", "response-pairs-loops",
+                    "Pairs of planes: loops");
+    report.add_text("\n");
   }
   if (wants("numerics")) {
     report.add_text(
@@ -412,7 +527,7 @@ void run_reproduce(const CommandLine& command_line) {
 
   const ReproducedRuns reproduced(folder);
   const std::vector<Claim> claims = checked_claims(reproduced, figures);
-  Report report(record.folder(), reproduced);
+  Report report(record.folder(), reproduced, configuration.integer("screens.count"));
   report.add_text(fmt::format(
       "# Letchev, Crass, Crepp & Potier 2022, claim by claim\n\nMade by `nlcwfs reproduce` on {} "
       "screens. In the paper's set-up {}; with an extended truth and the rule difference {}.\n\n",
@@ -440,9 +555,8 @@ void run_reproduce(const CommandLine& command_line) {
   }
   fmt::print(
       "\nIn the paper's set-up: {}.\nWith an extended truth and the rule difference: {}.\n"
-      "{} reads as one: report.md\n{}\n",
-      count_text(claims, Setup::paper), count_text(claims, Setup::extended), "What was found",
-      record.closing_line());
+      "report.md has every claim and figure.\n{}\n",
+      count_text(claims, Setup::paper), count_text(claims, Setup::extended), record.closing_line());
 }
 
 }  // namespace nlcwfs

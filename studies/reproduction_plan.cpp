@@ -68,9 +68,8 @@ class Plan {
   Configuration base(Setup setup) const { return base_of(given_, setup); }
 
   /// min:max:count of a map's axes.
-  std::string map_axis(Setup setup) const {
-    const char* key = setup == Setup::paper ? "reproduce.grid" : "reproduce.extended_grid";
-    const int count = given_.integer(key);
+  std::string map_axis() const {
+    const int count = given_.integer("reproduce.grid");
     return fmt::format("{}:{}:{}", farthest / count, farthest, count);
   }
 
@@ -88,8 +87,8 @@ void add_map(Plan& plan, Setup setup, int ratio, const std::string& order,
              const std::string& folder) {
   plan.add(folder, "sweep", plan.base(setup),
            {{"seeing.d_over_r0", fmt::format("{}", ratio)},
-            {"sweep.z_near", plan.map_axis(setup)},
-            {"sweep.z_far", plan.map_axis(setup)},
+            {"sweep.z_near", plan.map_axis()},
+            {"sweep.z_far", plan.map_axis()},
             {"sweep.plane_count", fmt::format("{}", order.size())},
             {"sweep.order", order},
             {"sweep.crossed_pairs", "left_out"}});
@@ -97,6 +96,22 @@ void add_map(Plan& plan, Setup setup, int ratio, const std::string& order,
 
 void add_four_plane_map(Plan& plan, Setup setup, int ratio) {
   add_map(plan, setup, ratio, "1234", fmt::format("figure-3/{}-{}", to_string(setup), ratio));
+}
+
+/// The paper's planes, or others at its distances, one for one.
+void add_design(Plan& plan, Setup setup, const std::string& name,
+                const std::vector<std::size_t>& papers_places) {
+  Configuration configuration = plan.base(setup);
+  const std::vector<double> papers = configuration.lengths("sensor.planes");
+  std::vector<double> planes;
+  for (const std::size_t place : papers_places) planes.push_back(papers[place]);
+  plan.add(fmt::format("designs/{}-{}", to_string(setup), name), "evaluate",
+           std::move(configuration),
+           {{"sensor.planes", fmt::format("{}", fmt::join(planes, ","))}});
+}
+
+void add_four_planes(Plan& plan, Setup setup) {
+  add_design(plan, setup, "four-planes", {0, 1, 2, 3});
 }
 
 /// The planes of figure 5: between the paper's last and the pupil, and on both of these.
@@ -180,8 +195,8 @@ const std::vector<NamedSettings>& scaled_telescopes() {
   return telescopes;
 }
 
-const std::vector<NamedSettings>& numerical_variants() {
-  static const std::vector<NamedSettings> variants{
+std::vector<NamedSettings> numerical_variants(int screens) {
+  return {
       {"as-the-paper", {}},
       {"window-2", {{"reconstruction.window", "2"}}},
       {"window-8", {{"reconstruction.window", "8"}}},
@@ -201,9 +216,8 @@ const std::vector<NamedSettings>& numerical_variants() {
        {{"simulation.truth", "extended"},
         {"simulation.pupil_samples", "128"},
         {"reconstruction.stopping", "difference"}}},
-      {"screens-64", {{"screens.count", "64"}}},
-      {"screens-256", {{"screens.count", "256"}}}};
-  return variants;
+      {"screens-times-4", {{"screens.count", fmt::format("{}", 4 * screens)}}},
+      {"screens-times-16", {{"screens.count", fmt::format("{}", 16 * screens)}}}};
 }
 
 std::vector<std::string> figures_of(const Configuration& configuration) {
@@ -228,16 +242,21 @@ std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
   for (const Setup setup : setups) {
     if (wants("3")) {
       for (const int ratio : map_ratios) add_four_plane_map(plan, setup, ratio);
+      add_four_planes(plan, setup);
+      add_design(plan, setup, "pairs-exchanged", {2, 3, 0, 1});
     }
     if (wants("4")) {
       add_four_plane_map(plan, setup, 4);
       add_map(plan, setup, 4, "124", fmt::format("figure-4/{}-without-p3", to_string(setup)));
       add_map(plan, setup, 4, "234", fmt::format("figure-4/{}-without-p1", to_string(setup)));
+      // One after the other, so that their times compare.
+      add_four_planes(plan, setup);
+      add_design(plan, setup, "without-p3", {0, 1, 3});
+      add_design(plan, setup, "without-p1", {1, 2, 3});
     }
     if (wants("5")) {
       add_fifth_plane(plan, setup);
-      plan.add(fmt::format("figure-5/{}-four-planes", to_string(setup)), "evaluate",
-               plan.base(setup), {});
+      add_four_planes(plan, setup);
     }
     if (wants("6")) {
       for (const int ratio : sampling_ratios) add_sampling(plan, setup, ratio);
@@ -250,7 +269,7 @@ std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
     }
   }
   if (wants("response")) add_responses(plan);
-  for (const NamedSettings& variant : numerical_variants()) {
+  for (const NamedSettings& variant : numerical_variants(configuration.integer("screens.count"))) {
     if (!wants("numerics")) break;
     for (const int ratio : map_ratios) {
       auto settings = variant.settings;

@@ -52,7 +52,9 @@ struct NamedSettings {
   std::vector<std::pair<std::string, std::string>> settings;  ///< key, value
 };
 const std::vector<NamedSettings>& scaled_telescopes();
-const std::vector<NamedSettings>& numerical_variants();
+/// What the numerics decide: settings that are laid over the paper's.
+/// @param screens  of the reproduction; two variants have more
+std::vector<NamedSettings> numerical_variants(int screens);
 
 /// Figures that a configuration asks for.
 /// @throws InputError where reproduce.figures names none that is known

@@ -375,6 +375,20 @@ TEST(Simulation, FollowsTheResidualFromLoopToLoop) {
   }
 }
 
+TEST(Simulation, KnowsHowStrongItsAberrationsAre) {
+  // A tilt of one wave over the diameter: its RMS over a round pupil is a quarter of a wave.
+  const int samples = 64;
+  PhaseScreen tilt(samples, samples);
+  for (int column = 0; column < samples; ++column) {
+    tilt.col(column) = 2.0 * std::numbers::pi * (column + 0.5) / samples;
+  }
+  const std::vector<double> aberrations =
+      Simulation({.wavelength = 800e-9}, {tilt, 0.5 * tilt}, {}).aberrations();
+  ASSERT_EQ(aberrations.size(), 2u);
+  EXPECT_NEAR(aberrations[0], 200e-9, 1e-9);  // of a disc of samples
+  EXPECT_NEAR(aberrations[1], 0.5 * aberrations[0], 1e-18);
+}
+
 TEST(Simulation, BroadbandLightCostsAccuracy) {
   const auto residual = [](const LightSource& source) {
     return evaluate(small_design(), turbulence(4), {.source = source})

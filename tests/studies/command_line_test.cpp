@@ -197,6 +197,17 @@ TEST(CommandLine, OnlyAdviseVerifiesOnDemand) {
   }
 }
 
+TEST(CommandLine, FiguresOfAReproductionAddUp) {
+  EXPECT_EQ(parse({"reproduce", "--figure", "3", "--figure", "response"})
+                .configuration.text("reproduce.figures"),
+            "3,response");
+  EXPECT_EQ(parse_message({"evaluate", "--figure", "3"}),
+            "command line = --figure 3: only reproduce takes it; leave it away with evaluate");
+  EXPECT_EQ(parse_message({"reproduce", "--figure", "3", "--reproduce.figures", "4"}),
+            "command line = --figure 3: reproduce.figures is given too; keep one of them");
+  EXPECT_THAT(parse_message({"reproduce", "--figure"}), HasSubstr("a value must follow"));
+}
+
 TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
   Configuration earlier;
   earlier.set("screens.count", "3", "in a test");
@@ -279,8 +290,8 @@ TEST(CommandLine, HelpListsCommandsOptionsAndKeysIn100Columns) {
   for (const Command& command : commands()) {
     EXPECT_THAT(help, AllOf(HasSubstr("\n  " + command.name), HasSubstr(command.description)));
   }
-  for (const char* option : {"config", "preset", "output", "resume", "threads", "quiet", "verify",
-                             "dump-config", "help", "version"}) {
+  for (const char* option : {"config", "preset", "output", "resume", "figure", "threads", "quiet",
+                             "verify", "dump-config", "help", "version"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n  --") + option + " "));
   }
   // A long default may be broken over two lines.

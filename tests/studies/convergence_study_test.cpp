@@ -36,6 +36,9 @@ TEST_F(Convergence, LeavesItsFiles) {
     EXPECT_NEAR(residuals["standard_error"][loop], 0.5 * std::abs(first - second), 1e-9);
   }
   EXPECT_GT(residuals["mean"][0], residuals["mean"][8]);
+  for (const double aberration : summary("run").at("aberrations_nm")) {
+    EXPECT_GT(aberration, residuals["mean"][8]);
+  }
 }
 
 TEST_F(Convergence, GoesOnWhereTheReconstructionWouldHaveStopped) {

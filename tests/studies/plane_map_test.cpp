@@ -44,7 +44,6 @@ TEST(PlaneMap, HasTheGridsValues) {
   EXPECT_EQ(map.value("loops", 0, 1), 9.0);
   EXPECT_EQ(map.mean("loops", 1, 3).standard_error, 0.1);
   EXPECT_TRUE(std::isnan(map.value("loops", 2, 0)));
-  EXPECT_EQ(map.nearest_near(47e3), 1u);
   EXPECT_EQ(map.nearest_far(180e3), 3u);
   EXPECT_EQ(map.lowest("loops"), 4.0);
 }
@@ -54,6 +53,7 @@ TEST(PlaneMap, AveragesOverWhatIsWanted) {
   const PlaneMap map(json);
   EXPECT_DOUBLE_EQ(map.mean_over("loops", [](double near, double) { return near == 60e3; }), 4.5);
   EXPECT_TRUE(std::isnan(map.mean_over("loops", [](double, double) { return false; })));
+  EXPECT_EQ(map.greatest_over("loops", [](double near, double) { return near == 60e3; }), 6.0);
 }
 
 TEST(PlaneMap, FindsTheValleyAndHowFarTheFarPairMustBe) {
