@@ -1,7 +1,9 @@
 #include "model/statistics.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -22,6 +24,15 @@ MeanAndError standard_deviation_and_error(std::span<const double> values) {
   const auto count = static_cast<double>(values.size());
   const double deviation = mean_and_standard_error(values).standard_error * std::sqrt(count);
   return {deviation, deviation / std::sqrt(2.0 * (count - 1.0))};
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::ranges::sort(values);
+  const double place = share * double(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], place - double(below));
 }
 
 }  // namespace nlcwfs

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace nlcwfs {
 
@@ -19,5 +20,9 @@ MeanAndError mean_and_standard_error(std::span<const double> values);
 /// standard error s / sqrt(2 (n - 1)), which holds for normal ones.
 /// @pre there are at least 2
 MeanAndError standard_deviation_and_error(std::span<const double> values);
+
+/// The value that a share of the others is below, interpolated linearly between the two nearest:
+/// 0.5 is the median. NaN of no values.
+double quantile(std::vector<double> values, double share);
 
 }  // namespace nlcwfs

@@ -1,5 +1,10 @@
 #include "results/csv_table.hpp"
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 namespace nlcwfs {
@@ -33,6 +38,56 @@ CsvTable& CsvTable::add(std::string_view text) {
   }
   text_ += '"';
   return *this;
+}
+
+namespace {
+
+/// The cells of the next line; none at the end of the text.
+std::vector<std::string> next_line(std::string_view& text) {
+  std::vector<std::string> cells;
+  if (text.empty()) return cells;
+  cells.emplace_back();
+  bool is_quoted = false;
+  std::size_t at = 0;
+  for (; at < text.size() && (is_quoted || text[at] != '\n'); ++at) {
+    const char character = text[at];
+    if (character == '"') {
+      // A quote within quotes is doubled.
+      if (is_quoted && text.substr(at + 1).starts_with('"')) {
+        cells.back() += text[++at];
+      } else {
+        is_quoted = !is_quoted;
+      }
+    } else if (character == ',' && !is_quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += character;
+    }
+  }
+  text.remove_prefix(std::min(at + 1, text.size()));
+  return cells;
+}
+
+}  // namespace
+
+std::vector<CsvRow> read_csv(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string contents{std::istreambuf_iterator<char>(file), {}};
+  std::string_view rest = contents;
+  const std::vector<std::string> columns = next_line(rest);
+  if (columns.empty()) throw std::runtime_error(fmt::format("cannot read {}", path.string()));
+  std::vector<CsvRow> rows;
+  while (!rest.empty()) {
+    const std::vector<std::string> cells = next_line(rest);
+    if (cells.size() != columns.size()) {
+      throw std::runtime_error(fmt::format("cannot read {}: line {} has {} cells, not {}",
+                                           path.string(), rows.size() + 2, cells.size(),
+                                           columns.size()));
+    }
+    rows.emplace_back();
+    for (std::size_t i = 0; i < cells.size(); ++i) rows.back()[columns[i]] = cells[i];
+  }
+  return rows;
 }
 
 void CsvTable::separate() {

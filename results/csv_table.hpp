@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,5 +27,13 @@ class CsvTable {
   std::string text_;  ///< without the end of the last line
   bool row_is_empty_ = true;
 };
+
+/// A line of such a table: the cells by the names of their columns.
+using CsvRow = std::map<std::string, std::string>;
+
+/// Reads a table that CsvTable has written.
+/// @throws std::runtime_error with the path where it cannot be read or a line has not as many cells
+///         as the header
+std::vector<CsvRow> read_csv(const std::filesystem::path& path);
 
 }  // namespace nlcwfs

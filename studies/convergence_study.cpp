@@ -127,6 +127,7 @@ void run_convergence(const CommandLine& command_line) {
   const std::vector<LoopResiduals> loops = residuals_of(simulation.follow(design));
   std::vector<double> aberrations = simulation.aberrations();
   for (double& aberration : aberrations) aberration /= nm;
+  record.folder().write("screens.csv", screens_table(tried.performances.front()));
   record.folder().write("convergence.csv", table_of(loops));
   const auto no_picture = write_picture(picture_of(loops, picture_title(telescope, seeing)),
                                         record.folder().file("convergence"));

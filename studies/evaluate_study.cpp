@@ -1,4 +1,3 @@
-#include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
 #include "studies/run_record.hpp"
@@ -11,25 +10,6 @@
 #include <fmt/format.h>
 
 namespace nlcwfs {
-namespace {
-
-/// One row per screen, one column per metric.
-std::string screens_table(const Performance& performance) {
-  std::vector<std::string> columns{"screen"};
-  for (const PerformanceMetric& metric : performance_metrics()) columns.emplace_back(metric.name);
-  columns.emplace_back("converged");
-  CsvTable table(columns);
-  double number = 0;
-  for (const ScreenPerformance& screen : performance.screens) {
-    table.row().add(number++);
-    for (const PerformanceMetric& metric : performance_metrics()) table.add(metric(screen));
-    table.add(screen.converged ? 1.0 : 0.0);
-  }
-  return table.text();
-}
-
-}  // namespace
-
 void run_evaluate(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
   require_one_condition(configuration);

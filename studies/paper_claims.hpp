@@ -1,39 +1,29 @@
 #pragma once
 
-#include "model/statistics.hpp"
 #include "studies/reproduction_plan.hpp"
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 namespace nlcwfs {
 
-/// The summaries of a reproduction's runs.
-class ReproducedRuns {
- public:
-  /// @param folder  of the reproduction
-  explicit ReproducedRuns(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-  /// @throws std::runtime_error with path and cause where it cannot be read
-  const nlohmann::ordered_json& summary(const std::string& run) const;
-
- private:
-  std::filesystem::path folder_;
-  mutable std::map<std::string, nlohmann::ordered_json> read_;
-};
+class ReproducedRuns;
 
 /// What a claim of the paper has come to.
-enum class ClaimVerdict { reproduced, in_trend, not_reproduced };
+enum class ClaimVerdict {
+  reproduced,
+  in_trend,
+  not_reproduced,
+  open  ///< the runs do not have what it takes to tell
+};
 std::string_view to_string(ClaimVerdict verdict);
 
 /// What one set-up says of a claim.
 struct ClaimFinding {
   std::string number;  ///< ours, with its standard error where it is a mean
-  ClaimVerdict verdict;
+  ClaimVerdict verdict = ClaimVerdict::open;
+  std::string why = {};  ///< what decides it there, one line
 };
 
 /// A sentence of the paper that can be checked.
@@ -43,10 +33,9 @@ struct Claim {
   std::string papers;    ///< its number
   std::string rule;      ///< what counts as reproduced, and what as its trend
   std::map<Setup, ClaimFinding> findings;
-  std::string why;  ///< what decides it, one line
 };
 
-/// The claims that the figures' runs can check.
+/// The claims that the figures' runs can check, in the order of the paper.
 std::vector<Claim> checked_claims(const ReproducedRuns& runs,
                                   const std::vector<std::string>& figures);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nlcwfs {
 namespace {
@@ -20,11 +19,7 @@ const Json& element(const Json& matrix, std::size_t near, std::size_t far) {
   return rows->at(near).at(far);
 }
 
-std::size_t nearest(const std::vector<double>& values, double wanted) {
-  const auto found =
-      std::ranges::min_element(values, {}, [&](double value) { return std::abs(value - wanted); });
-  return static_cast<std::size_t>(found - values.begin());
-}
+bool are_clear(double near, double far) { return far >= 1.5 * near; }
 
 }  // namespace
 
@@ -44,71 +39,51 @@ MeanAndError PlaneMap::mean(const std::string& figure, std::size_t near, std::si
           number_from_json(element(grid_.at("standard_error").at(figure), near, far))};
 }
 
-double PlaneMap::mean_over(const std::string& figure,
-                           const std::function<bool(double near, double far)>& wanted) const {
-  double sum = 0.0;
-  int count = 0;
+std::vector<double> PlaneMap::values_of(const std::string& figure, const Condition& wanted) const {
+  std::vector<double> values;
   for (std::size_t i = 0; i < near_.size(); ++i) {
     for (std::size_t k = 0; k < far_.size(); ++k) {
       if (!wanted(near_[i], far_[k])) continue;
       const double here = value(figure, i, k);
-      if (!std::isfinite(here)) continue;
-      sum += here;
-      ++count;
+      if (std::isfinite(here)) values.push_back(here);
     }
   }
-  return sum / count;  // NaN without any
+  return values;
 }
 
-double PlaneMap::greatest_over(const std::string& figure,
-                               const std::function<bool(double near, double far)>& wanted) const {
-  double greatest = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    for (std::size_t k = 0; k < far_.size(); ++k) {
-      if (wanted(near_[i], far_[k])) greatest = std::fmax(greatest, value(figure, i, k));
-    }
-  }
-  return greatest;
-}
-
-double PlaneMap::lowest(const std::string& figure) const {
-  double lowest = HUGE_VAL;
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    for (std::size_t k = 0; k < far_.size(); ++k) {
-      lowest = std::fmin(lowest, value(figure, i, k));
-    }
-  }
-  return lowest;
-}
-
-double PlaneMap::mean_at_near(const std::string& figure, std::size_t near) const {
-  return mean_over(figure, [&](double z_near, double z_far) {
-    return z_near == near_[near] && z_far >= 100 * km && z_far > 1.5 * z_near;
-  });
+double PlaneMap::median_at_near(const std::string& figure, std::size_t near) const {
+  return quantile(values_of(figure,
+                            [&](double z_near, double z_far) {
+                              return z_near == near_[near] && z_far >= 100 * km &&
+                                     are_clear(z_near, z_far);
+                            }),
+                  0.5);
 }
 
 std::size_t PlaneMap::valley() const {
-  std::vector<double> loops;
+  std::vector<double> costs;
   for (std::size_t near = 0; near < near_.size(); ++near) {
-    const double mean = mean_at_near("loops", near);
-    loops.push_back(std::isfinite(mean) ? mean : HUGE_VAL);
+    const double cost =
+        median_at_near("residual_wfe_nm", near) / 10.0 + median_at_near("loops", near) / 10.0;
+    costs.push_back(std::isfinite(cost) ? cost : HUGE_VAL);
   }
-  return static_cast<std::size_t>(std::ranges::min_element(loops) - loops.begin());
+  return static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin());
 }
 
-double PlaneMap::least_good_far() const {
-  const std::size_t near = valley();
-  double fewest = HUGE_VAL;
-  for (std::size_t k = 0; k < far_.size(); ++k) {
-    fewest = std::fmin(fewest, value("loops", near, k));
+std::optional<double> PlaneMap::least_good_far(double talbot) const {
+  std::vector<double> means;
+  for (const double far : far_) {
+    const std::vector<double> loops = values_of("loops", [&](double z_near, double z_far) {
+      return z_far == far && are_clear(z_near, z_far) && z_near > talbot / 1.5 &&
+             z_near < talbot * 1.5;
+    });
+    means.push_back(loops.empty() ? HUGE_VAL : mean_and_standard_error(loops).mean);
   }
-  double least = far_.back();
-  for (std::size_t k = far_.size(); k-- > 0 && value("loops", near, k) <= 1.1 * fewest;) {
-    least = far_[k];
-  }
-  return least;
+  const double enough = 1.1 * *std::ranges::min_element(means);
+  const auto least = std::ranges::find_if(means, [&](double mean) { return mean <= enough; });
+  const auto place = static_cast<std::size_t>(least - means.begin());
+  if (!std::isfinite(enough) || place + 1 == far_.size()) return std::nullopt;
+  return far_[place];
 }
-
-std::size_t PlaneMap::nearest_far(double distance) const { return nearest(far_, distance); }
 
 }  // namespace nlcwfs

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace nlcwfs {
 /// must have one value each.
 class PlaneMap {
  public:
+  /// Says of a design whether it is meant.
+  using Condition = std::function<bool(double near, double far)>;
+
   /// @param grid  the object `grid` of a sweep's summary, which must outlive the map
   explicit PlaneMap(const nlohmann::ordered_json& grid);
 
@@ -25,30 +29,22 @@ class PlaneMap {
   double value(const std::string& figure, std::size_t near, std::size_t far) const;
   MeanAndError mean(const std::string& figure, std::size_t near, std::size_t far) const;
 
-  /// Its mean over the points that are wanted; NaN where there is none.
-  double mean_over(const std::string& figure,
-                   const std::function<bool(double near, double far)>& wanted) const;
+  /// Its values at the designs that are wanted and that the map has.
+  std::vector<double> values_of(const std::string& figure, const Condition& wanted) const;
 
-  /// The greatest of the points that are wanted; NaN where there is none.
-  double greatest_over(const std::string& figure,
-                       const std::function<bool(double near, double far)>& wanted) const;
+  /// A figure's median over the far distances from 100 km on that are clear of the near one: at
+  /// least 1.5 times as far. NaN where there is none.
+  double median_at_near(const std::string& figure, std::size_t near) const;
 
-  /// The lowest of the map.
-  double lowest(const std::string& figure) const;
-
-  /// A figure's mean over the far distances from 100 km on that are clear of the near one; NaN
-  /// where there is none.
-  double mean_at_near(const std::string& figure, std::size_t near) const;
-
-  /// The near distance at which the loops' mean_at_near is least: the valley of Letchev et al.
-  /// 2022, section 3.2.
+  /// The near distance at which residual and loops are low together: where median_at_near of
+  /// residual WFE / 10 nm + loops / 10, the program's own default cost, is least. Few loops alone
+  /// say little: a reconstruction that stops by chance has few.
   std::size_t valley() const;
 
-  /// The least far distance from which on the loops in the valley stay within a tenth of their
-  /// fewest, m.
-  double least_good_far() const;
-
-  std::size_t nearest_far(double distance) const;
+  /// The least far distance, m, whose loops, averaged over the near distances within a factor 1.5
+  /// of `talbot` that are clear of it, are within a tenth of the fewest such average. Nothing where
+  /// that is the map's last distance: then it may lie beyond.
+  std::optional<double> least_good_far(double talbot) const;
 
  private:
   const nlohmann::ordered_json& grid_;

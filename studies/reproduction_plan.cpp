@@ -6,6 +6,7 @@
 #include "studies/text.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include <boost/algorithm/string/split.hpp>
@@ -32,11 +33,22 @@ void set_defaults(Configuration& configuration,
   }
 }
 
-/// The paper's planes in its order, at the Fresnel numbers of its telescope.
-std::string papers_planes(const Telescope& telescope) {
-  std::vector<double> planes = Configuration().lengths("baseline.planes");
-  for (double& plane : planes) plane = scaled_distance(plane, Telescope(), telescope);
-  return fmt::format("{}", fmt::join(planes, ","));
+/// Refuses what would make it another study than the paper's.
+void require_papers_case(const Configuration& configuration) {
+  const Configuration defaults;
+  Configuration preset;
+  preset.apply_preset("paper");
+  for (const ConfigurationKey& key : configuration_keys()) {
+    const std::string section = key.name.substr(0, key.name.find('.'));
+    const bool is_papers = section == "telescope" || section == "seeing" || section == "sensor" ||
+                           section == "source" || section == "sweep";
+    if (!is_papers || !configuration.is_set(key.name)) continue;
+    const std::string& value = configuration.value_text(key.name);
+    if (value == defaults.value_text(key.name) || value == preset.value_text(key.name)) continue;
+    throw InputError(key.name, one_line(value),
+                     "reproduce takes the paper's own; leave it away, or run evaluate, sweep, "
+                     "convergence and response on it");
+  }
 }
 
 /// The paper's planes in one of the two set-ups.
@@ -47,9 +59,17 @@ Configuration base_of(const Configuration& given, Setup setup) {
     const auto paper = std::ranges::find(presets(), "paper", &Preset::name);
     set_defaults(configuration, paper->values);
   }
-  configuration.set("sensor.planes", papers_planes(telescope_of(configuration)), source);
-  // The best of each map is looked at in the report on the maps' own screens.
-  set_defaults(configuration, {{"verify.candidates", "1"}});
+  // What makes it this set-up, whatever is given.
+  const bool is_paper = setup == Setup::paper;
+  configuration.set("simulation.truth", is_paper ? "matched" : "extended", source);
+  configuration.set("reconstruction.stopping", is_paper ? "rms_change" : "difference", source);
+  configuration.set("source.aberration", is_paper ? "phase" : "path", source);
+  configuration.set("seeing.d_over_r0", "4", source);
+  configuration.set("sensor.planes",
+                    fmt::format("{}", fmt::join(Configuration().lengths("baseline.planes"), ",")),
+                    source);
+  // Nothing is chosen: the report looks at whole maps, on their own screens.
+  set_defaults(configuration, {{"verify.candidates", "1"}, {"verify.screens", "2"}});
   return configuration;
 }
 
@@ -105,9 +125,10 @@ void add_design(Plan& plan, Setup setup, const std::string& name,
   const std::vector<double> papers = configuration.lengths("sensor.planes");
   std::vector<double> planes;
   for (const std::size_t place : papers_places) planes.push_back(papers[place]);
-  plan.add(fmt::format("designs/{}-{}", to_string(setup), name), "evaluate",
-           std::move(configuration),
-           {{"sensor.planes", fmt::format("{}", fmt::join(planes, ","))}});
+  plan.add(
+      fmt::format("designs/{}-{}", to_string(setup), name), "evaluate", std::move(configuration),
+      {{"sensor.planes", fmt::format("{}", fmt::join(planes, ","))},
+       {"screens.count", fmt::format("{}", more_screens * plan.given().integer("screens.count"))}});
 }
 
 void add_four_planes(Plan& plan, Setup setup) {
@@ -118,7 +139,8 @@ void add_four_planes(Plan& plan, Setup setup) {
 std::string fifth_planes(int half_count) {
   std::vector<double> planes;
   for (int i = -half_count; i <= half_count; ++i) planes.push_back(farthest * i / half_count);
-  planes.insert(std::ranges::lower_bound(planes, 180 * km), 180 * km);
+  const auto after = std::ranges::lower_bound(planes, 180 * km);
+  if (*after != 180 * km) planes.insert(after, 180 * km);
   return fmt::format("{}", fmt::join(planes, ","));
 }
 
@@ -135,10 +157,9 @@ void add_fifth_plane(Plan& plan, Setup setup) {
 
 /// The near pair at the Talbot distance of r0, as the paper finds best.
 void add_sampling(Plan& plan, Setup setup, int ratio) {
-  const Configuration configuration = plan.base(setup);
-  const Telescope telescope = telescope_of(configuration);
+  const Telescope telescope;
   const double near = talbot_distance(telescope.diameter / ratio, telescope.wavelength);
-  plan.add(fmt::format("figure-6/{}-{}", to_string(setup), ratio), "sweep", configuration,
+  plan.add(fmt::format("figure-6/{}-{}", to_string(setup), ratio), "sweep", plan.base(setup),
            {{"seeing.d_over_r0", fmt::format("{}", ratio)},
             {"sensor.planes", fmt::format("{0},{1},-180km,180km", -near, near)},
             {"simulation.truth", setup == Setup::paper ? "periodic" : "extended"},
@@ -220,6 +241,25 @@ std::vector<NamedSettings> numerical_variants(int screens) {
       {"screens-times-16", {{"screens.count", fmt::format("{}", 16 * screens)}}}};
 }
 
+const std::vector<NamedSettings>& numerical_probes() {
+  static const std::vector<NamedSettings> probes{
+      {"four-planes-4", {}},
+      {"four-planes-6", {{"seeing.d_over_r0", "6"}}},
+      {"four-planes-8", {{"seeing.d_over_r0", "8"}}},
+      {"without-p3", {{"sensor.planes", "-47km,47km,180km"}}},
+      {"without-p1", {{"sensor.planes", "47km,-180km,180km"}}},
+      {"fifth-plane", {{"sensor.planes", "-47km,47km,-180km,180km,100km"}}},
+      {"four-pixels",
+       {{"seeing.d_over_r0", "8"},
+        {"sensor.planes", "-14.7km,14.7km,-180km,180km"},
+        {"detector.pupil_pixels", "32"}}},
+      {"medium-band",
+       {{"seeing.d_over_r0", "6"},
+        {"source.bands", std::string(paper_bands[2].bands)},
+        {"source.wavelengths", fmt::format("{}", paper_bands[2].wavelengths)}}}};
+  return probes;
+}
+
 std::vector<std::string> figures_of(const Configuration& configuration) {
   const std::string& text = configuration.text("reproduce.figures");
   std::vector<std::string> figures;
@@ -234,6 +274,7 @@ std::vector<std::string> figures_of(const Configuration& configuration) {
 }
 
 std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
+  require_papers_case(configuration);
   const std::vector<std::string> figures = figures_of(configuration);
   const auto wants = [&](std::string_view figure) {
     return std::ranges::count(figures, figure) > 0;
@@ -271,11 +312,12 @@ std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
   if (wants("response")) add_responses(plan);
   for (const NamedSettings& variant : numerical_variants(configuration.integer("screens.count"))) {
     if (!wants("numerics")) break;
-    for (const int ratio : map_ratios) {
+    for (const NamedSettings& probe : numerical_probes()) {
       auto settings = variant.settings;
-      settings.emplace_back("seeing.d_over_r0", fmt::format("{}", ratio));
-      plan.add(fmt::format("numerics/{}-{}", variant.name, ratio), "evaluate",
-               plan.base(Setup::paper), settings);
+      settings.insert(settings.end(), probe.settings.begin(), probe.settings.end());
+      plan.add(fmt::format("numerics/{}/{}", variant.name, probe.name),
+               probe.name == "medium-band" ? "convergence" : "evaluate", plan.base(Setup::paper),
+               settings);
     }
   }
   return std::move(plan).runs();

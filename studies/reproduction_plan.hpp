@@ -55,14 +55,21 @@ const std::vector<NamedSettings>& scaled_telescopes();
 /// What the numerics decide: settings that are laid over the paper's.
 /// @param screens  of the reproduction; two variants have more
 std::vector<NamedSettings> numerical_variants(int screens);
+/// The numbers of the paper that are looked at in each of these: settings, the later with evaluate
+/// but for "medium-band", which takes convergence.
+const std::vector<NamedSettings>& numerical_probes();
+
+/// How many times as many wavefronts the designs at the paper's distances are evaluated on.
+inline constexpr int more_screens = 16;
 
 /// Figures that a configuration asks for.
-/// @throws InputError where reproduce.figures names none that is known
+/// @throws InputError where reproduce.figures names one that is not known
 std::vector<std::string> figures_of(const Configuration& configuration);
 
 /// Everything that these need, in the order of the paper; figures share runs.
-/// @param configuration  gives the sizes (section reproduce) and the screens; the paper's set-up is
-///                       laid over its defaults
+/// @param configuration  gives the sizes (section reproduce), the screens and the search's
+///                       precision; the paper's set-up is laid over its defaults
+/// @throws InputError where it has another telescope, seeing, sensor or sweep than the paper's
 std::vector<PlannedRun> planned_runs(const Configuration& configuration);
 
 }  // namespace nlcwfs

@@ -1,5 +1,6 @@
 #include "studies/trial_summary.hpp"
 
+#include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
 
@@ -41,6 +42,20 @@ std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial)
                     figure("residual_wfe_nm"), figure("total_wfe_nm"), figure("fractional_loops"));
   }
   return table;
+}
+
+std::string screens_table(const Performance& performance) {
+  std::vector<std::string> columns{"screen"};
+  for (const PerformanceMetric& metric : performance_metrics()) columns.emplace_back(metric.name);
+  columns.emplace_back("converged");
+  CsvTable table(columns);
+  double number = 0;
+  for (const ScreenPerformance& screen : performance.screens) {
+    table.row().add(number++);
+    for (const PerformanceMetric& metric : performance_metrics()) table.add(metric(screen));
+    table.add(screen.converged ? 1.0 : 0.0);
+  }
+  return table.text();
 }
 
 }  // namespace nlcwfs

@@ -18,4 +18,7 @@ nlohmann::ordered_json to_json(const TriedDesign& tried, const DesignTrial& tria
 /// where there is one.
 std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial);
 
+/// One line for each screen, one column for each metric, as CSV.
+std::string screens_table(const Performance& performance);
+
 }  // namespace nlcwfs

@@ -57,5 +57,15 @@ TEST(StandardDeviationAndError, ItsErrorIsTheSpreadOfManyOfNormalValues) {
   EXPECT_NEAR(mean_and_standard_error(deviations).mean, 0.7, 0.02);
 }
 
+TEST(Statistics, QuantilesAreBetweenTheValues) {
+  EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.5), 2.0);
+  EXPECT_EQ(quantile({4.0, 1.0, 2.0, 3.0}, 0.5), 2.5);
+  EXPECT_EQ(quantile({1.0, 2.0}, 0.0), 1.0);
+  EXPECT_EQ(quantile({1.0, 2.0}, 1.0), 2.0);
+  EXPECT_DOUBLE_EQ(quantile({0.0, 10.0}, 0.3), 3.0);
+  EXPECT_EQ(quantile({7.0}, 0.9), 7.0);
+  EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+}
+
 }  // namespace
 }  // namespace nlcwfs

@@ -1,9 +1,12 @@
 #include "results/csv_table.hpp"
 
+#include "tests/scratch_folder.hpp"
+
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <random>
 
@@ -103,6 +106,37 @@ TEST(CsvTable, WritesWhatIsNoFiniteNumberAsAWord) {
   table.row().add(std::numeric_limits<double>::quiet_NaN());
   table.row().add(-std::numeric_limits<double>::infinity());
   EXPECT_EQ(table.text(), "number\nnan\n-inf\n");
+}
+
+using ReadCsv = ScratchFolder;
+
+TEST_F(ReadCsv, IsTheInverse) {
+  CsvTable table({"name", "value"});
+  table.row().add("plain").add(0.1);
+  table.row().add("with, \"marks\"\nand lines").add(-1e300);
+  table.row().add("").add(2.0);
+  std::ofstream("table.csv") << table.text();
+  const std::vector<CsvRow> rows = read_csv("table.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].at("name"), "plain");
+  EXPECT_EQ(rows[0].at("value"), "0.1");
+  EXPECT_EQ(rows[1].at("name"), "with, \"marks\"\nand lines");
+  EXPECT_EQ(rows[1].at("value"), "-1e+300");
+  EXPECT_EQ(rows[2].at("name"), "");
+}
+
+TEST_F(ReadCsv, NamesTheFileThatItCannotRead) {
+  const auto message = [](const char* path) {
+    try {
+      (void)read_csv(path);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message("missing.csv"), "cannot read missing.csv");
+  std::ofstream("broken.csv") << "a,b\n1,2\n3\n";
+  EXPECT_EQ(message("broken.csv"), "cannot read broken.csv: line 3 has 1 cells, not 2");
 }
 
 }  // namespace

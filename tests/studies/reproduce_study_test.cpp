@@ -1,4 +1,5 @@
 #include "studies/paper_claims.hpp"
+#include "studies/reproduced_runs.hpp"
 #include "studies/reproduction_plan.hpp"
 #include "tests/message_of.hpp"
 #include "tests/studies/program.hpp"
@@ -66,6 +67,36 @@ TEST(ReproductionPlan, HasThePapersNumbers) {
   EXPECT_EQ(find("figure-8/paper-monochromatic").bands("source.bands").size(), 0u);
 }
 
+TEST(ReproductionPlan, IsThePapersWhateverIsGiven) {
+  Configuration preset;
+  preset.apply_preset("paper");
+  for (const PlannedRun& run : planned_runs(preset)) {
+    if (run.folder.find("/extended") == std::string::npos) continue;
+    EXPECT_EQ(run.configuration.choice("reconstruction.stopping"), "difference");
+  }
+  for (const auto& [key, value] : {std::pair{"telescope.diameter", "8.2m"},
+                                   {"seeing.d_over_r0", "8"},
+                                   {"sensor.planes", "-20km,20km"},
+                                   {"sweep.z_near", "30km,60km"}}) {
+    Configuration other;
+    other.set(key, value, "here");
+    EXPECT_THAT(message_of([&] { (void)planned_runs(other); }),
+                AllOf(HasSubstr(key), HasSubstr("reproduce takes the paper's own")));
+  }
+}
+
+TEST(ReproductionPlan, TheFifthPlaneIsAtEachDistanceOnce) {
+  for (const char* grid : {"4", "25", "32", "50"}) {
+    Configuration configuration;
+    configuration.set("reproduce.grid", grid, "here");
+    for (const PlannedRun& run : planned_runs(configuration)) {
+      if (run.folder != "figure-5/paper") continue;
+      const std::vector<double> planes = *run.configuration.axis("sweep.z5");
+      EXPECT_EQ(std::set<double>(planes.begin(), planes.end()).size(), planes.size()) << grid;
+    }
+  }
+}
+
 TEST(ReproductionPlan, RefusesFiguresThatThePaperDoesNotHave) {
   EXPECT_THAT(message_of([] { (void)runs_of("3,9"); }),
               AllOf(HasSubstr("reproduce.figures"), HasSubstr("3, 4, 5")));
@@ -119,6 +150,14 @@ TEST_F(Claims, NameTheFileThatIsMissing) {
 
 class Reproduce : public Program {
  protected:
+  /// As of every program's test, but without axes of a sweep.
+  void SetUp() override {
+    Program::SetUp();
+    std::string text = contents("tiny.cfg");
+    text.erase(text.find("[sweep]"));
+    std::ofstream("tiny.cfg") << text;
+  }
+
   /// How many pictures the report in this folder shows; all of them must be there.
   static std::size_t pictures_in(const std::string& folder) {
     const std::string report = contents(folder + "/report.md");
@@ -173,6 +212,21 @@ TEST_F(Reproduce, RunsEveryStudyOfThePaper) {
     }
   }
   EXPECT_EQ(figures, (std::set<std::string>{"3", "4", "5", "6", "7", "8", "scaling"}));
+}
+
+TEST_F(Reproduce, ItsConfigurationReproducesIt) {
+  done("reproduce", "first", {"--figure", "scaling", "--screens.seed", "7"});
+  const ProgramRun again = run({"reproduce", "--config", "first/config.cfg", "--output", "again"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(repeatable_summary("first"), repeatable_summary("again"));
+  EXPECT_EQ(names_in("first"), names_in("again"));
+}
+
+TEST_F(Reproduce, RefusesOneWavefront) {
+  const ProgramRun refused = run({"reproduce", "--screens.count", "1", "--output", "run"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, AllOf(HasSubstr("screens.count"), HasSubstr("at least 2")));
+  EXPECT_FALSE(std::filesystem::exists("run"));
 }
 
 TEST_F(Reproduce, GoesOnWhereItWasKilled) {

@@ -403,11 +403,10 @@ TEST_F(Studies, TheConfigurationOfARunReproducesIt) {
                            "--search.z_far",
                            "100km:200km",
                            "--scale.wavelength",
-                           "850nm",
-                           "--reproduce.figures",
-                           "scaling"};
+                           "850nm"};
   for (const Command& command : commands()) {
-    if (!command.arguments.empty()) continue;
+    // reproduce takes no other telescope than the paper's.
+    if (!command.arguments.empty() || command.name == "reproduce") continue;
     const std::string first = command.name + "-first";
     const std::string again = command.name + "-again";
     done(command.name, first, settings);

@@ -1,0 +1,74 @@
+#include "studies/reproduced_runs.hpp"
+
+#include "results/csv_table.hpp"
+#include "results/json_numbers.hpp"
+
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+
+using Json = nlohmann::ordered_json;
+
+const Json& ReproducedRuns::summary(const std::string& run) const {
+  const auto known = read_.find(run);
+  if (known != read_.end()) return known->second;
+  const std::filesystem::path path = folder_ / run / "summary.json";
+  try {
+    std::ifstream file(path);
+    return read_.emplace(run, Json::parse(file)).first->second;
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(fmt::format("cannot read {}: {}", path.string(), error.what()));
+  }
+}
+
+std::vector<double> ReproducedRuns::screens(const std::string& run,
+                                            const std::string& metric) const {
+  const std::filesystem::path path = folder_ / run / "screens.csv";
+  std::vector<double> values;
+  for (const CsvRow& row : read_csv(path)) {
+    const auto cell = row.find(metric);
+    if (cell == row.end()) {
+      throw std::runtime_error(fmt::format("{} has no column {}", path.string(), metric));
+    }
+    values.push_back(std::stod(cell->second));
+  }
+  return values;
+}
+
+std::string SetupRuns::path(std::string_view figure, const std::string& run) const {
+  return fmt::format("{}/{}{}{}", figure, to_string(setup_), run.empty() ? "" : "-", run);
+}
+
+const Json& SetupRuns::summary(std::string_view figure, const std::string& run) const {
+  return runs_.summary(path(figure, run));
+}
+
+PlaneMap SetupRuns::map(int ratio) const {
+  return PlaneMap(summary("figure-3", fmt::format("{}", ratio)).at("grid"));
+}
+
+PlaneMap SetupRuns::three_plane_map(const std::string& name) const {
+  return PlaneMap(summary("figure-4", name).at("grid"));
+}
+
+MeanAndError SetupRuns::design(const std::string& name, const char* metric) const {
+  return mean_from_json(summary("designs", name).at("design").at("performance").at(metric));
+}
+
+MeanAndError SetupRuns::design_difference(const std::string& name, const std::string& other,
+                                          const char* metric) const {
+  std::vector<double> differences = screens("designs", name, metric);
+  const std::vector<double> others = screens("designs", other, metric);
+  for (std::size_t i = 0; i < differences.size(); ++i) differences[i] -= others.at(i);
+  return mean_and_standard_error(differences);
+}
+
+std::vector<double> SetupRuns::screens(std::string_view figure, const std::string& run,
+                                       const std::string& metric) const {
+  return runs_.screens(path(figure, run), metric);
+}
+
+}  // namespace nlcwfs
