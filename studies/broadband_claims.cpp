@@ -134,8 +134,7 @@ std::vector<ClaimRule> broadband_claims() {
        "band"},
       {"8", "Wider bands converge later.", "later", "as above", converges_later,
        "rms_change hardly sees the floor",
-       "at the floor the phase still changes by more than "
-       "1 nm a loop"},
+       "at the floor the phase still changes by more than 1 nm a loop, up to the last of 20"},
       {"8", "The floor of the widest band stays low.", "below 50 nm",
        "below 50 nm; trend: below 100 nm", floor_is_low,
        "the same phase at every wavelength is what makes it low",

@@ -243,7 +243,7 @@ std::vector<ClaimRule> plane_count_claims() {
        "above the neighbours by two standard errors in residual and loops at both; trend: in the "
        "loops of one",
        zero_hops_break, "a hop of no length is left out here: nothing breaks",
-       "a hop of no length is left out here: nothing breaks"},
+       "nothing breaks, but a plane at the pupil shows no phase and only costs"},
       {"5", "Four planes are the best overall choice.", "quicker than three and five",
        "the fewest transforms, as medians; trend: fewer than two of the three others",
        four_planes_are_best, "loops against transforms in a loop",

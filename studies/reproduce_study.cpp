@@ -8,9 +8,7 @@
 #include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
 
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <stdexcept>
 
@@ -32,8 +30,14 @@ void run_part(const CommandLine& command_line) {
 
 /// Whether the folder of a run has the run's configuration, so that what it holds may be kept.
 bool is_of(const PlannedRun& run, const std::filesystem::path& folder) {
-  std::ifstream file(folder / "config.cfg", std::ios::binary);
-  return std::string{std::istreambuf_iterator<char>(file), {}} == run.configuration.dump();
+  if (!std::filesystem::exists(folder / "config.cfg")) return false;
+  try {
+    Configuration kept;
+    kept.read_file(folder / "config.cfg");
+    return kept == run.configuration;
+  } catch (const InputError&) {
+    return false;  // of a version that had other keys
+  }
 }
 
 bool has_archive(const std::filesystem::path& folder) {

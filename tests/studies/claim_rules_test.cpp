@@ -136,6 +136,8 @@ TEST_F(ClaimRules, TellWhetherPairsMayBeExchanged) {
   EXPECT_EQ(verdict("3", "Near and far pair may"), ClaimVerdict::in_trend);
   // Alike on the mean, but no two wavefronts are.
   write_design("pairs-exchanged", {1.0, 12.0, 1.5, 12.5}, {4.0, 5.0, 4.0, 5.0});
+  EXPECT_EQ(verdict("3", "Near and far pair may"), ClaimVerdict::open);
+  write_design("pairs-exchanged", {3.0, 3.5, 3.2, 3.7}, {2.0, 2.5, 2.0, 2.5});
   EXPECT_EQ(verdict("3", "Near and far pair may"), ClaimVerdict::not_reproduced);
 }
 
