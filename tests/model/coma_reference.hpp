@@ -3,6 +3,7 @@
 #include "model/pupil.hpp"
 #include "model/sensor_design.hpp"
 #include "model/telescope.hpp"
+#include "tests/paths.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -13,7 +14,7 @@ namespace nlcwfs {
 
 /// The independent values of tests/reference for a comatic beam on a periodic 256 x 256 grid.
 inline nlohmann::json coma_reference() {
-  std::ifstream file(NLCWFS_TEST_REFERENCE_DIR "/fresnel-gs-coma.json");
+  std::ifstream file(test_reference_folder() + "/fresnel-gs-coma.json");
   return nlohmann::json::parse(file);
 }
 

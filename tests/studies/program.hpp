@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/paths.hpp"
 #include "tests/scratch_folder.hpp"
 
 #include <cstdlib>
@@ -39,7 +40,7 @@ class Program : public ScratchFolder {
 
   /// @param shell  what stands before the program in the shell's command
   static ProgramRun run(const Arguments& arguments, const std::string& shell = "") {
-    std::string command = shell + quoted(NLCWFS_PROGRAM);
+    std::string command = shell + quoted(program_path());
     for (const std::string& argument : arguments) command += ' ' + quoted(argument);
     const int status = std::system((command + " > output.txt 2> errors.txt").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents("output.txt"),

@@ -5,6 +5,7 @@
 #include "results/csv_table.hpp"
 #include "studies/reproduction_plan.hpp"
 #include "studies/settings.hpp"
+#include "tests/paths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace nlcwfs {
 namespace {
 
 std::vector<CsvRow> reference_rows(const std::string& file) {
-  return read_csv(NLCWFS_REFERENCE_RUN "/" + file);
+  return read_csv(reference_run_folder() + "/" + file);
 }
 
 double number(const CsvRow& row, const std::string& column) { return std::stod(row.at(column)); }

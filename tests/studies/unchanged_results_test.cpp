@@ -1,3 +1,4 @@
+#include "tests/paths.hpp"
 #include "tests/studies/program.hpp"
 
 #include <cmath>
@@ -38,7 +39,7 @@ class UnchangedResults : public Program {};
 TEST_F(UnchangedResults, AreThoseOfThePlainLoopsUpToRounding) {
   // See tests/reference/README.md.
   const auto references =
-      nlohmann::json::parse(std::ifstream(NLCWFS_TEST_REFERENCE_DIR "/evaluations.json"));
+      nlohmann::json::parse(std::ifstream(test_reference_folder() + "/evaluations.json"));
   ASSERT_GE(references.size(), 6u);
   for (std::size_t i = 0; i < references.size(); ++i) {
     const std::string folder = "run" + std::to_string(i);
