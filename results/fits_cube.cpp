@@ -1,13 +1,12 @@
 #include "results/fits_cube.hpp"
 
 #include "model/input_error.hpp"
+#include "results/fits_file.hpp"
 
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -17,43 +16,11 @@
 namespace nlcwfs {
 namespace {
 
-/// A failed CFITSIO call; what() is CFITSIO's message.
-class FitsFailure : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// @throws FitsFailure unless `status` is 0
-void check(int status) {
-  if (status == 0) return;
-  std::array<char, FLEN_STATUS> summary{};
-  std::array<char, FLEN_ERRMSG> detail{};
-  fits_get_errstatus(status, summary.data());
-  fits_read_errmsg(detail.data());  // the oldest, which is nearest to the cause
-  fits_clear_errmsg();
-  throw FitsFailure(detail[0] == '\0' ? fmt::format("{}", summary.data())
-                                      : fmt::format("{} ({})", summary.data(), detail.data()));
-}
-
-struct CloseFits {
-  void operator()(fitsfile* file) const {
-    int status = 0;
-    fits_close_file(file, &status);
-    fits_clear_errmsg();
-  }
-};
-using FitsHandle = std::unique_ptr<fitsfile, CloseFits>;
-
-/// CFITSIO expands a leading ~ even in literal names, hence absolute paths.
-std::string literal_name(const std::filesystem::path& path) {
-  return std::filesystem::absolute(path).string();
-}
-
 FitsHandle open_to_read(const std::filesystem::path& path) {
   fitsfile* file = nullptr;
   int status = 0;
   fits_open_diskfile(&file, literal_name(path).c_str(), READONLY, &status);
-  check(status);
+  check_fits(status);
   return FitsHandle(file);
 }
 
@@ -65,7 +32,7 @@ std::string read_unit(fitsfile* file) {
     fits_clear_errmsg();
     return "";
   }
-  check(status);
+  check_fits(status);
   return unit.data();
 }
 
@@ -81,23 +48,17 @@ void write_keyword(fitsfile* file, const FitsKeyword& keyword) {
     ULONGLONG integer = std::get<std::uint64_t>(keyword.value);
     fits_write_key(file, TULONGLONG, name, &integer, comment, &status);
   }
-  check(status);
+  check_fits(status);
 }
 
-void write_file(const std::filesystem::path& path, const FitsCube& cube,
-                const std::vector<FitsKeyword>& keywords) {
-  fitsfile* created = nullptr;
+void write_image(fitsfile* file, const FitsCube& cube, const std::vector<FitsKeyword>& keywords) {
   int status = 0;
-  fits_create_diskfile(&created, literal_name(path).c_str(), &status);
-  check(status);
-  FitsHandle file(created);
-
   const Eigen::Index samples = cube.slices.front().rows();
   std::array<LONGLONG, 3> shape{samples, samples, static_cast<LONGLONG>(cube.slices.size())};
-  fits_create_imgll(file.get(), DOUBLE_IMG, 3, shape.data(), &status);
-  check(status);
-  write_keyword(file.get(), {"BUNIT", cube.unit, "unit of the values"});
-  for (const FitsKeyword& keyword : keywords) write_keyword(file.get(), keyword);
+  fits_create_imgll(file, DOUBLE_IMG, 3, shape.data(), &status);
+  check_fits(status);
+  write_keyword(file, {"BUNIT", cube.unit, "unit of the values"});
+  for (const FitsKeyword& keyword : keywords) write_keyword(file, keyword);
 
   std::array<LONGLONG, 3> first{1, 1, 1};
   for (const Image<double>& slice : cube.slices) {
@@ -105,12 +66,10 @@ void write_file(const std::filesystem::path& path, const FitsCube& cube,
     // CFITSIO's interface takes the values as mutable, but only reads them.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     auto* const values = const_cast<double*>(slice.data());
-    fits_write_pixll(file.get(), TDOUBLE, first.data(), slice.size(), values, &status);
-    check(status);
+    fits_write_pixll(file, TDOUBLE, first.data(), slice.size(), values, &status);
+    check_fits(status);
     ++first[2];
   }
-  fits_close_file(file.release(), &status);
-  check(status);
 }
 
 }  // namespace
@@ -133,7 +92,7 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key)
     int type = 0;
     std::array<LONGLONG, 3> shape{0, 0, 1};
     fits_get_img_paramll(file.get(), 3, &type, &dimensions, shape.data(), &status);
-    check(status);
+    check_fits(status);
     if (dimensions != 2 && dimensions != 3) refuse(fmt::format("NAXIS is {}", dimensions));
     if (shape[0] != shape[1]) {
       refuse(fmt::format("its slices are {} x {}, not square", shape[0], shape[1]));
@@ -153,7 +112,7 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key)
       Image<double> slice(shape[1], shape[0]);
       fits_read_pixll(file.get(), TDOUBLE, first.data(), slice.size(), &undefined, slice.data(),
                       &any_undefined, &status);
-      check(status);
+      check_fits(status);
       if (!slice.isFinite().all()) {
         refuse(fmt::format("slice {} has values that are not finite", first[2]));
       }
@@ -168,19 +127,7 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key)
 void write_fits_cube(const std::filesystem::path& path, const FitsCube& cube,
                      const std::vector<FitsKeyword>& keywords) {
   assert(!cube.slices.empty() && cube.slices.front().size() > 0);
-  if (std::filesystem::exists(path)) {
-    throw std::runtime_error(fmt::format("cannot write {}: the file exists", path.string()));
-  }
-  const std::filesystem::path part = path.string() + ".part";
-  std::filesystem::remove(part);  // left by a run that was killed
-  try {
-    write_file(part, cube, keywords);
-    std::filesystem::rename(part, path);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), error.what()));
-  }
+  write_new_fits_file(path, [&](fitsfile* file) { write_image(file, cube, keywords); });
 }
 
 }  // namespace nlcwfs
