@@ -53,8 +53,9 @@ void write_keyword(fitsfile* file, const FitsKeyword& keyword) {
 
 void write_image(fitsfile* file, const FitsCube& cube, const std::vector<FitsKeyword>& keywords) {
   int status = 0;
-  const Eigen::Index samples = cube.slices.front().rows();
-  std::array<LONGLONG, 3> shape{samples, samples, static_cast<LONGLONG>(cube.slices.size())};
+  const Eigen::Index rows = cube.slices.front().rows();
+  const Eigen::Index columns = cube.slices.front().cols();
+  std::array<LONGLONG, 3> shape{columns, rows, static_cast<LONGLONG>(cube.slices.size())};
   fits_create_imgll(file, DOUBLE_IMG, 3, shape.data(), &status);
   check_fits(status);
   write_keyword(file, {"BUNIT", cube.unit, "unit of the values"});
@@ -62,7 +63,7 @@ void write_image(fitsfile* file, const FitsCube& cube, const std::vector<FitsKey
 
   std::array<LONGLONG, 3> first{1, 1, 1};
   for (const Image<double>& slice : cube.slices) {
-    assert(slice.rows() == samples && slice.cols() == samples);
+    assert(slice.rows() == rows && slice.cols() == columns);
     // CFITSIO's interface takes the values as mutable, but only reads them.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     auto* const values = const_cast<double*>(slice.data());
@@ -74,7 +75,31 @@ void write_image(fitsfile* file, const FitsCube& cube, const std::vector<FitsKey
 
 }  // namespace
 
-FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key) {
+FitsAxis centred_axis(std::string name, Eigen::Index samples, double pitch) {
+  return {.name = std::move(name),
+          .unit = "m",
+          .reference_pixel = 0.5 * double(samples + 1),
+          .step = pitch,
+          .description = "from the middle"};
+}
+
+std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes) {
+  std::vector<FitsKeyword> keywords;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const FitsAxis& axis = axes[i];
+    const auto add = [&](const char* name, const auto& value, const std::string& comment) {
+      keywords.push_back({fmt::format("{}{}", name, i + 1), value, comment});
+    };
+    add("CTYPE", axis.name, axis.description);
+    add("CUNIT", axis.unit, "unit of this axis");
+    add("CRPIX", axis.reference_pixel, "reference pixel");
+    add("CRVAL", axis.reference_value, "coordinate there");
+    add("CDELT", axis.step, "from pixel to pixel");
+  }
+  return keywords;
+}
+
+FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key, FitsGaps gaps) {
   const auto refuse = [&](const std::string& why) {
     throw InputError(
         key, path.string(),
@@ -113,7 +138,7 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key)
       fits_read_pixll(file.get(), TDOUBLE, first.data(), slice.size(), &undefined, slice.data(),
                       &any_undefined, &status);
       check_fits(status);
-      if (!slice.isFinite().all()) {
+      if (gaps == FitsGaps::refused && !slice.isFinite().all()) {
         refuse(fmt::format("slice {} has values that are not finite", first[2]));
       }
       cube.slices.push_back(std::move(slice));

@@ -11,7 +11,7 @@
 
 namespace nlcwfs {
 
-/// Square images of one size, such as phase screens.
+/// Images of one size, such as phase screens.
 struct FitsCube {
   std::string unit;  ///< BUNIT as the file has it; empty where it has none
   std::vector<Image<double>>
@@ -25,17 +25,39 @@ struct FitsKeyword {
   std::string comment;
 };
 
+/// One axis of an image in world coordinates, whose pixels are evenly spaced (Greisen & Calabretta
+/// 2002, A&A 395, 1061).
+struct FitsAxis {
+  std::string name;              ///< CTYPE, such as "X"
+  std::string unit = "";         ///< CUNIT; empty for what has none
+  double reference_pixel = 1.0;  ///< CRPIX; FITS counts the first pixel's centre as 1
+  double reference_value = 0.0;  ///< CRVAL: the coordinate there, in the unit
+  double step = 1.0;             ///< CDELT: from one pixel to the next, in the unit
+  std::string description = "";  ///< for people
+};
+
+/// An axis across the pupil or a detector: m from its middle.
+/// @param pitch  of its samples, m
+FitsAxis centred_axis(std::string name, Eigen::Index samples, double pitch);
+
+/// CTYPEn, CUNITn, CRPIXn, CRVALn and CDELTn of each axis; the first is n = 1.
+std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes);
+
+/// Whether samples may have no value, which is NaN.
+enum class FitsGaps { refused, allowed };
+
 /// Reads the image of a file's first HDU: n x n x count, or n x n, which is one slice. The path is
 /// taken literally, without CFITSIO's extended file name syntax.
 /// @param key  the configuration key that named the file, for the error
 /// @throws InputError where the file is missing or unreadable, or its image has another shape or
 ///         values that are not finite
-FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key);
+FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
+                        FitsGaps gaps = FitsGaps::refused);
 
-/// Writes n x n x count 64-bit floating-point values with BUNIT and `keywords` in the header. Until
-/// it is complete the file has the name `path` with `.part` appended; an existing file is never
+/// Writes 64-bit floating-point values with BUNIT and `keywords` in the header. Until it is
+/// complete the file has the name `path` with `.part` appended; an existing file is never
 /// overwritten. The path is taken literally.
-/// @pre at least one slice, all square and of one size, not empty
+/// @pre at least one slice, all of one size, not empty
 /// @throws std::runtime_error with the path and the cause where the file exists or cannot be
 /// written
 void write_fits_cube(const std::filesystem::path& path, const FitsCube& cube,

@@ -72,19 +72,17 @@ std::optional<std::string> draw_map(const DistanceMap& map, int ratio, const std
 
 /// As a FITS image: Z_far along axis 1, Z_near along axis 2.
 void write_map(const DistanceMap& map, const std::filesystem::path& path) {
-  std::vector<FitsKeyword> keywords;
-  const auto add_axis = [&](int number, const char* name, const std::vector<double>& distances) {
-    keywords.push_back({fmt::format("CTYPE{}", number), std::string(name), "distance of a pair"});
-    keywords.push_back({fmt::format("CUNIT{}", number), std::string("m"), ""});
-    keywords.push_back({fmt::format("CRPIX{}", number), 1.0, ""});
-    keywords.push_back({fmt::format("CRVAL{}", number), distances[0], "first distance"});
-    keywords.push_back(
-        {fmt::format("CDELT{}", number), distances[1] - distances[0], "to the next distance"});
+  const auto axis = [](const char* name, const std::vector<double>& distances) {
+    return FitsAxis{.name = name,
+                    .unit = "m",
+                    .reference_value = distances[0],
+                    .step = distances[1] - distances[0],
+                    .description = "distance of a pair"};
   };
-  add_axis(1, "Z_FAR", map.places.far());
-  add_axis(2, "Z_NEAR", map.places.near());
   std::filesystem::remove(path);  // of a report that was interrupted
-  write_fits_cube(path, {map.unit, {map.values}}, keywords);
+  write_fits_cube(
+      path, {map.unit, {map.values}},
+      axis_keywords({axis("Z_FAR", map.places.far()), axis("Z_NEAR", map.places.near())}));
 }
 
 /// What the maps hold, with standard errors, one line for each design.

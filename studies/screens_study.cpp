@@ -67,17 +67,20 @@ void run_screens(const CommandLine& command_line) {
   const double expected_tilt_removed =
       noll_tilt_removed_variance(telescope.diameter, seeing.fried_parameter);
 
-  std::vector<FitsKeyword> keywords{
-      {"DIAMETER", telescope.diameter, "[m] pupil diameter = width of the square"},
-      {"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"}};
+  const double pitch = telescope.diameter / samples;
+  std::vector<FitsKeyword> keywords =
+      axis_keywords({centred_axis("X", samples, pitch),
+                     centred_axis("Y", samples, pitch),
+                     {.name = "SCREEN", .description = "counted from 0"}});
+  keywords.push_back({"DIAMETER", telescope.diameter, "[m] pupil diameter = width of the square"});
+  keywords.push_back({"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"});
   // What made the screens of a file is not known.
   if (configuration.text("screens.file").empty()) {
     keywords.push_back({"SEED", configuration.seed("screens.seed"), "seed of the screens"});
     keywords.push_back({"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"});
     if (seeing.outer_scale) keywords.push_back({"L0", *seeing.outer_scale, "[m] outer scale"});
   }
-  record.folder().write("structure_function.csv",
-                        structure_function_table(screens, telescope.diameter / samples, seeing));
+  record.folder().write("structure_function.csv", structure_function_table(screens, pitch, seeing));
   const std::size_t count = screens.size();
   write_fits_cube(record.folder().file("screens.fits"), {"rad", std::move(screens)}, keywords);
   record.write_summary({{"screens", count},

@@ -4,6 +4,7 @@
 #include "tests/scratch_folder.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -128,6 +129,54 @@ TEST_F(FitsCubeFile, WritesKeywordsOfEveryType) {
   EXPECT_THAT(header, HasSubstr("SEED    = 18446744073709551615 / of the screens"));
   EXPECT_THAT(header, HasSubstr("ORIGIN  = 'nlcwfs  '           / program"));
   EXPECT_THAT(header, HasSubstr("CONTINUE"));
+}
+
+TEST_F(FitsCubeFile, WritesAxesAsWorldCoordinates) {
+  write_fits_cube(
+      "cube.fits", example(),
+      axis_keywords({centred_axis("X", 3, 0.5),
+                     {.name = "Z_NEAR", .unit = "m", .reference_value = 5e3, .step = 1e3}}));
+  const std::string header = contents("cube.fits");
+  for (const std::string& expected :
+       {card("CTYPE1", "'X       '          "), card("CUNIT1", "'m       '          "),
+        card("CRPIX1", "2."), card("CRVAL1", "0."), card("CDELT1", "0.5"),
+        card("CTYPE2", "'Z_NEAR  '          "), card("CUNIT2", "'m       '          "),
+        card("CRPIX2", "1."), card("CRVAL2", "5000."), card("CDELT2", "1000.")}) {
+    EXPECT_THAT(header, HasSubstr(expected));
+  }
+}
+
+TEST_F(FitsCubeFile, CentresTheAxesOfEvenAndOddImages) {
+  for (const int samples : {1, 4, 5}) {
+    const FitsAxis axis = centred_axis("X", samples, 0.25);
+    const auto coordinate = [&](double pixel) {
+      return axis.reference_value + axis.step * (pixel - axis.reference_pixel);
+    };
+    // (i - (n - 1) / 2) dx of the first sample, i = 0, and of the last.
+    EXPECT_DOUBLE_EQ(coordinate(1.0), -0.125 * (samples - 1));
+    EXPECT_DOUBLE_EQ(coordinate(samples), 0.125 * (samples - 1));
+  }
+}
+
+TEST_F(FitsCubeFile, WritesImagesThatAreNotSquareWithColumnsFastest) {
+  Image<double> map(2, 3);
+  map << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;
+  write_fits_cube("map.fits", {"nm", {map}});
+  const std::string bytes = contents("map.fits");
+  EXPECT_THAT(bytes, HasSubstr(card("NAXIS1", "3")));
+  EXPECT_THAT(bytes, HasSubstr(card("NAXIS2", "2")));
+  EXPECT_EQ(bytes.substr(2880, 6 * 8), doubles({1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+}
+
+TEST_F(FitsCubeFile, KeepsGapsWhereTheyAreAllowed) {
+  FitsCube cube = example();
+  cube.slices[1](2, 0) = std::numeric_limits<double>::quiet_NaN();
+  write_fits_cube("gaps.fits", cube);
+  EXPECT_THAT(refusal("gaps.fits"), HasSubstr("slice 2 has values that are not finite"));
+  const FitsCube read = read_fits_cube("gaps.fits", "screens.file", FitsGaps::allowed);
+  EXPECT_EQ(read.slices[1].isNaN().count(), 1);
+  EXPECT_TRUE(std::isnan(read.slices[1](2, 0)));
+  EXPECT_TRUE((read.slices[0] == example().slices[0]).all());
 }
 
 TEST_F(FitsCubeFile, ReadsAnImageAsOneSliceWithRowsAlongTheSecondAxis) {

@@ -362,6 +362,10 @@ TEST_F(Studies, ScreensLeavesItsFiles) {
   EXPECT_EQ(cube.unit, "rad");
   EXPECT_EQ(cube.slices.size(), 2u);
   EXPECT_EQ(cube.slices.at(0).rows(), 32);
+  // 0.5 m over 32 samples, about the middle.
+  EXPECT_THAT(contents("run/screens.fits"), AllOf(HasSubstr("CRPIX1  =                 16.5"),
+                                                  HasSubstr("CDELT2  =             0.015625"),
+                                                  HasSubstr("CTYPE3  = 'SCREEN  '")));
   // Four directions of 31 separations.
   EXPECT_EQ(read_table("run/structure_function.csv").size(), 1u + 4 * 31);
 }
