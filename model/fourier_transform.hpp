@@ -25,6 +25,7 @@ class LineTransform {
   /// @param length  samples per line, at least 1
   explicit LineTransform(int length);
 
+  /// How many samples a line has.
   int length() const { return length_; }
 
   /// out[f] = sum_x in[x] exp(-2 pi i f x / length)
@@ -60,9 +61,10 @@ void for_each_row(Field<Real>& field, Eigen::Index samples, Eigen::Index first, 
 
 /// Rows first <= row < last.
 struct RowRange {
-  Eigen::Index first;
-  Eigen::Index last;
+  Eigen::Index first;  ///< included
+  Eigen::Index last;   ///< excluded
 
+  /// How many rows.
   Eigen::Index size() const { return last - first; }
 };
 

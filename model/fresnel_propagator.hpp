@@ -31,6 +31,7 @@ class FresnelPropagator {
   /// @param wavelength  m
   FresnelPropagator(int samples, double pitch, double wavelength);
 
+  /// How many samples the grid has along a side.
   int samples() const { return transform_.length(); }
 
   /// The transform of the grid's rows.

@@ -38,6 +38,7 @@ struct Reconstruction {
 template <class Real>
 class GerchbergSaxton {
  public:
+  /// Plans the transforms and lays out the factors of a valid design.
   GerchbergSaxton(const Telescope& telescope, const SensorDesign& design);
 
   /// May be called from many threads.

@@ -21,15 +21,17 @@ class ImageCache {
   /// What an image depends on, with one telescope, truth, set of screens and
   /// spectrum within its bands.
   struct Key {
-    std::size_t screen;
-    double plane;      ///< signed distance, m
-    int width;         ///< of the detector, pixels
-    int pupil_pixels;  ///< across the pupil
-    Band band;         ///< of the plane's light
+    std::size_t screen;  ///< number of the wavefront, from 0
+    double plane;        ///< signed distance, m
+    int width;           ///< of the detector, pixels
+    int pupil_pixels;    ///< across the pupil
+    Band band;           ///< of the plane's light
 
+    /// An order of keys, member by member.
     // NOLINTNEXTLINE(modernize-use-nullptr): it compares with 0, which is no pointer
     auto operator<=>(const Key&) const = default;
   };
+  /// An image that several may read.
   using SharedImage = std::shared_ptr<const Image<double>>;
 
   /// @param bytes  the most that the images may take together

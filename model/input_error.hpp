@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+/// Everything of nlcwfs: the libraries and the program.
 namespace nlcwfs {
 
 /// Input that a user can mend: names the configuration key, its value and what is allowed, in one

@@ -17,7 +17,9 @@ struct Band {
   double shortest;  ///< m
   double longest;   ///< m, at least as long
 
+  /// Middle of the band, m.
   double centre() const { return 0.5 * (shortest + longest); }
+  /// By the shortest wavelength, then the longest.
   // NOLINTNEXTLINE(modernize-use-nullptr): it compares with 0, which is no pointer
   auto operator<=>(const Band&) const = default;
 };
@@ -42,7 +44,8 @@ struct LightSource {
   bool is_split = false;
   int wavelengths = 1;               ///< that stand for a plane's band: the middles of equal parts
   std::vector<double> weights = {};  ///< of these, shortest first, in any unit; none = equal
-  ChromaticAberration aberration = ChromaticAberration::phase;
+  ChromaticAberration aberration =
+      ChromaticAberration::phase;  ///< what is the same at every wavelength
 
   /// @throws InputError where values do not go together, or with so many planes
   void validate(std::size_t planes) const;

@@ -14,9 +14,12 @@ template <class Real>
 class LineFactors {
  public:
   LineFactors() = default;  ///< none
+  /// One factor for each value of a line.
   explicit LineFactors(const Eigen::ArrayXcd& factors);
 
+  /// How many values a line has.
   int length() const { return static_cast<int>(real_.size()) / 2; }
+  /// The factor of sample i.
   std::complex<Real> operator[](Eigen::Index i) const {
     return {real_[2 * i], imaginary_[2 * i + 1]};
   }
@@ -34,6 +37,7 @@ class LineFactors {
 /// out[i] = in[i] * factors[i] * factor for i < factors.length(); out may be in.
 void multiply_line(const std::complex<double>* in, const LineFactors<double>& factors,
                    std::complex<double> factor, std::complex<double>* out);
+/// The same in single precision.
 void multiply_line(const std::complex<float>* in, const LineFactors<float>& factors,
                    std::complex<float> factor, std::complex<float>* out);
 
@@ -41,6 +45,7 @@ void multiply_line(const std::complex<float>* in, const LineFactors<float>& fact
 /// do not overlap and are aligned to the size of a value.
 void transpose(const std::complex<double>* in, std::ptrdiff_t in_stride, std::complex<double>* out,
                std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns);
+/// The same in single precision.
 void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::complex<float>* out,
                std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns);
 
@@ -57,6 +62,7 @@ void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::com
 void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride, int samples,
                         double gain, const double* measured, double relaxation, double* scratch,
                         int pixels);
+/// The same in single precision.
 void replace_amplitudes(std::complex<float>* field, std::ptrdiff_t stride, int samples, float gain,
                         const float* measured, float relaxation, float* scratch, int pixels);
 

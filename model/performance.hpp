@@ -12,13 +12,13 @@ namespace nlcwfs {
 
 /// How a design did on one wavefront.
 struct ScreenPerformance {
-  WavefrontMetrics wavefront;
-  bool converged = false;
-  int loops = 0;
-  double fractional_loops = 0.0;
-  int fft_count = 0;
-  double seconds = 0.0;                 ///< measured time of the reconstruction
-  double data_seconds = 0.0;            ///< measured time to make the images, 0 for kept ones
+  WavefrontMetrics wavefront;  ///< errors of the reconstruction
+  bool converged = false;  ///< whether the loops ended by their rule, not at their greatest number
+  int loops = 0;           ///< that were run
+  double fractional_loops = 0.0;  ///< loop at which the change crosses the tolerance, interpolated
+  int fft_count = 0;              ///< two-dimensional Fourier transforms of the reconstruction
+  double seconds = 0.0;           ///< measured time of the reconstruction
+  double data_seconds = 0.0;      ///< measured time to make the images, 0 for kept ones
   std::vector<double> captured_energy;  ///< share of the pupil's light in the window, per plane
   /// Residual WFE after each loop, m; only of Simulation::follow().
   std::vector<double> residual_after_loops = {};
@@ -26,7 +26,7 @@ struct ScreenPerformance {
 
 /// How a design did on a set of wavefronts.
 struct Performance {
-  std::vector<ScreenPerformance> screens;
+  std::vector<ScreenPerformance> screens;  ///< one for each wavefront
   /// Under how many conditions: all screens under the first, then all under the second, ...
   std::size_t conditions = 1;
 
@@ -46,6 +46,7 @@ struct Performance {
     return mean_and_standard_error(samples_of(metric));
   }
 
+  /// Share of the reconstructions that ended by their rule, 0 to 1.
   double converged_fraction() const;
   std::vector<double> captured_energy() const;  ///< mean over the screens, per plane
 };
@@ -57,10 +58,11 @@ Performance pooled(std::span<const Performance> performances);
 
 /// A figure of merit as users see it: its name ends with its unit.
 struct PerformanceMetric {
-  std::string_view name;
-  std::string_view unit;  ///< "nm", "s"; empty for what has none
-  double (*value)(const ScreenPerformance&);
+  std::string_view name;                      ///< as summaries have it, with its unit
+  std::string_view unit;                      ///< "nm", "s"; empty for what has none
+  double (*value)(const ScreenPerformance&);  ///< the figure of one wavefront
 
+  /// The figure of one wavefront.
   double operator()(const ScreenPerformance& screen) const { return value(screen); }
 };
 

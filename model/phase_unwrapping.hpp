@@ -7,6 +7,7 @@
 
 namespace nlcwfs {
 
+/// How a phase is unwrapped, see PhaseUnwrapper.
 enum class UnwrappingMethod {
   quality_guided,  ///< joins the neighbours whose phase difference is the surest first
   least_squares    ///< weighted least squares over all neighbour differences, made congruent
@@ -17,9 +18,9 @@ enum class UnwrappingMethod {
 /// Both methods work on the edges between neighbours (left-right, up-down) that both lie in the
 /// mask, and both trust an edge by its quality
 ///
-///     q = (1 - |d|/pi) 12 / (10 + <I>/I_a + <I>/I_b),
+///     q = (1 - |d|/pi) 12 / (10 + I_m/I_a + I_m/I_b),
 ///
-/// d being the wrapped phase difference, I_a and I_b the two intensities and <I> the mask's mean.
+/// d being the wrapped phase difference, I_a and I_b the two intensities and I_m the mask's mean.
 /// If differences are normal with variance v, the log odds that the nearest multiple of 2 pi is the
 /// right one are 2 pi (pi - |d|) / v (after Carballo & Fieguth 2000, IEEE TGRS 38, 2192); v is a
 /// constant, the slopes of the wavefront, plus noise that goes with 1/I, so that edges near

@@ -9,6 +9,7 @@
 
 namespace nlcwfs {
 
+/// A generator whose numbers are the same on every platform.
 using RandomStream = boost::random::mt19937_64;
 
 /// An independent stream of random numbers for each list of keys, such as (seed, screen, plane):

@@ -19,8 +19,8 @@ MeanAndError tilt_removed_variance(std::span<const PhaseScreen> screens, const P
 
 /// From one sample to another; columns may be negative.
 struct SampleOffset {
-  int rows;
-  int columns;
+  int rows;     ///< from a sample to the other, along axis y
+  int columns;  ///< along axis x
 };
 
 /// Structure function in rad^2: the squared phase difference of two samples `offset` apart,

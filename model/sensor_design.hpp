@@ -29,16 +29,16 @@ enum class OutsideDetector {
 
 /// The reconstructor's settings.
 struct ReconstructionOptions {
-  int max_loops = 20;
-  double tolerance = 1e-9;  ///< m of optical path; 0 = always max_loops
-  StoppingRule stopping = StoppingRule::difference;
-  double relaxation_start = 0.0;  ///< beta of the first loop, -1 < beta < 1
-  double relaxation_end = 0.0;    ///< beta of loop max_loops; linear in between
-  InitialGuess initial_guess = InitialGuess::flat;
+  int max_loops = 20;                                ///< the loops end there, converged or not
+  double tolerance = 1e-9;                           ///< m of optical path; 0 = always max_loops
+  StoppingRule stopping = StoppingRule::difference;  ///< when the loops end
+  double relaxation_start = 0.0;                     ///< beta of the first loop, -1 < beta < 1
+  double relaxation_end = 0.0;                       ///< beta of loop max_loops; linear in between
+  InitialGuess initial_guess = InitialGuess::flat;   ///< of the phase in the pupil
   double window = 8.0;  ///< width of the reconstruction grid, pupil diameters
-  OutsideDetector outside = OutsideDetector::free;
+  OutsideDetector outside = OutsideDetector::free;  ///< what the field outside the detector becomes
   int oversampling = 1;  ///< samples of the grid per detector pixel and axis
-  UnwrappingMethod unwrapping = UnwrappingMethod::least_squares;
+  UnwrappingMethod unwrapping = UnwrappingMethod::least_squares;  ///< of the reconstructed phase
 
   /// beta of a loop, counted from 1.
   double relaxation(int loop) const;
@@ -57,8 +57,8 @@ void validate_planes(std::string_view key, const std::vector<double>& planes,
 /// A sensor: where its planes stand, how they are sampled, and how they are read.
 struct SensorDesign {
   std::vector<double> planes = {-180e3, 180e3, -47e3, 47e3};  ///< signed m, in visiting order
-  Detector detector;
-  ReconstructionOptions reconstruction;
+  Detector detector;                                          ///< the same for every plane
+  ReconstructionOptions reconstruction;                       ///< how the phase is found
 
   /// Samples across the pupil diameter on the reconstruction grid.
   int pupil_samples() const { return detector.pupil_pixels * reconstruction.oversampling; }

@@ -19,10 +19,11 @@ enum class Precision { double_precision, single_precision };
 
 /// How the data are made and reconstructed.
 struct SimulationOptions {
-  TruthModel truth = TruthModel::extended;
-  Precision precision = Precision::double_precision;
+  TruthModel truth = TruthModel::extended;  ///< which light makes the images
+  Precision precision =
+      Precision::double_precision;  ///< of the reconstruction; images are made in double precision
   std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
-  LightSource source = {};
+  LightSource source = {};       ///< wavelengths of the light
 };
 
 /// A design as it is simulated: with a matched or periodic truth the detector is as wide as the
@@ -65,9 +66,11 @@ class Simulation {
   /// See simulated_design.
   SensorDesign checked(SensorDesign design) const;
 
+  /// The telescope that the wavefronts have come through.
   const Telescope& telescope() const { return telescope_; }
   /// RMS of each true wavefront over the pupil, piston removed, m of optical path.
   std::vector<double> aberrations() const;
+  /// How many wavefronts a design is tried on.
   int screen_count() const { return static_cast<int>(screens_.size()); }
   /// Samples of the true field across the diameter.
   int truth_samples() const { return static_cast<int>(mask_.rows()); }

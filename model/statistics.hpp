@@ -7,8 +7,8 @@ namespace nlcwfs {
 
 /// A sample's mean with its standard error, both in the unit of the sample.
 struct MeanAndError {
-  double mean;
-  double standard_error;
+  double mean;            ///< of the sample
+  double standard_error;  ///< of the mean, in its unit
 };
 
 /// Mean and standard error of the mean of independent values: sqrt(s^2 / n), with the sample

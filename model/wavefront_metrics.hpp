@@ -30,8 +30,9 @@ double field_estimated_strehl(const Field<double>& field, const Field<double>& t
                               const PupilMask& mask);
 
 /// How much of the true phase is in the reconstructed one: the regression coefficient
-/// sum (rec - <rec>) (true - <true>) / sum (true - <true>)^2 over the mask; 1 is all of it. Of a
-/// sinusoid it is the recovered amplitude over the true one. 0 where the truth is flat.
+/// sum(r t) / sum(t^2) over the mask, r and t being the reconstructed and the true phase less their
+/// means; 1 is all of it. Of a sinusoid it is the recovered amplitude over the true one. 0 where
+/// the truth is flat.
 double recovered_share(const Image<double>& phase, const Image<double>& truth,
                        const PupilMask& mask);
 

@@ -29,6 +29,7 @@ class WrapFreePropagator {
   WrapFreePropagator(int pupil_samples, int window_samples, double pitch, double wavelength,
                      double period_margin = 16.0);
 
+  /// How many samples the window has along a side.
   int window_samples() const { return window_samples_; }
 
   /// The farthest plane, m: beyond it the kernel's period would have to be longer than 2^24 samples

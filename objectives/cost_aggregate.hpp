@@ -14,8 +14,8 @@ enum class AggregateKind {
 
 /// Makes one cost per screen of the costs under several conditions.
 struct CostAggregate {
-  AggregateKind kind = AggregateKind::mean;
-  double level = 0.9;  ///< of quantile and cvar, 0 < level < 1
+  AggregateKind kind = AggregateKind::mean;  ///< how several conditions make one cost
+  double level = 0.9;                        ///< of quantile and cvar, 0 < level < 1
 
   /// One value per screen, whose mean is the aggregated cost and whose standard error is, to first
   /// order, that of the aggregated cost: the screens are the independent sample, and each value is

@@ -20,7 +20,7 @@ enum class CostKind {
 
 /// A metric in a cost, times a weight.
 struct CostTerm {
-  DesignMetric metric;
+  DesignMetric metric;  ///< what is weighed
   double weight = 0.0;  ///< per unit of the metric
 };
 
@@ -29,9 +29,9 @@ enum class Side { above, below };
 
 /// Values of a metric on one side of a bound, which is in the metric's unit.
 struct MetricBound {
-  DesignMetric metric;
-  Side side = Side::above;
-  double bound = 0.0;
+  DesignMetric metric;      ///< what is bounded
+  Side side = Side::above;  ///< which values exceed the bound
+  double bound = 0.0;       ///< in the metric's unit
 
   /// How far a value lies on the side, in the metric's unit; 0 where it does not.
   double excess(double value) const;
@@ -39,8 +39,8 @@ struct MetricBound {
 
 /// Values that cost extra.
 struct Penalty {
-  MetricBound penalised;
-  double weight = 0.0;  ///< per unit of the metric that it is beyond the bound
+  MetricBound penalised;  ///< what is penalised, beyond its bound
+  double weight = 0.0;    ///< per unit of the metric that it is beyond the bound
 };
 
 /// Makes one number of a design's performance: the kind's cost, and on top the terms and the
@@ -48,16 +48,16 @@ struct Penalty {
 /// Every part is a mean over the screens, so the cost of each screen is defined and designs can be
 /// compared screen by screen.
 struct DesignCost {
-  CostKind kind = CostKind::weighted;
-  WavefrontErrorKind wfe = WavefrontErrorKind::residual;
-  double wfe_scale = 10e-9;  ///< m
-  double loop_weight = 0.1;  ///< per loop
-  double time_weight = 0.0;  ///< 1/s
-  std::vector<CostTerm> terms = {};
-  std::vector<Penalty> penalties = {};
+  CostKind kind = CostKind::weighted;                     ///< which formula, see above
+  WavefrontErrorKind wfe = WavefrontErrorKind::residual;  ///< which wavefront error counts
+  double wfe_scale = 10e-9;                               ///< m
+  double loop_weight = 0.1;                               ///< per loop
+  double time_weight = 0.0;                               ///< 1/s
+  std::vector<CostTerm> terms = {};      ///< what is added to the cost, with weights
+  std::vector<Penalty> penalties = {};   ///< what is added beyond bounds
   std::vector<MetricBound> limits = {};  ///< what a design's mean must not be; costs nothing
-  Operation operation = {};
-  CostAggregate aggregate = {};  ///< over conditions
+  Operation operation = {};              ///< what the metrics of the servo loop and of time assume
+  CostAggregate aggregate = {};          ///< over conditions
 
   /// The cost of each screen under one condition.
   /// @param fried_parameter  of the seeing at the telescope's wavelength, m

@@ -17,8 +17,8 @@ struct GridAxis {
 
 /// A design of a grid, with all the points that have it.
 struct GridDesign {
-  std::string key;  ///< see design_key
-  SensorDesign design;
+  std::string key;                  ///< see design_key
+  SensorDesign design;              ///< at its points
   std::vector<std::size_t> points;  ///< ascending
 };
 
@@ -30,7 +30,7 @@ struct GridDesign {
 /// order is one of another number of planes, and none where pairs are crossed and shall not be.
 class DesignGrid {
  public:
-  static constexpr std::size_t most_points = 1'000'000;
+  static constexpr std::size_t most_points = 1'000'000;  ///< of a grid
 
   /// @param options  its domains are lists; in a symmetric layout each number of planes has orders
   /// @param axes     names, outermost first; what has several values must be among them
@@ -40,9 +40,13 @@ class DesignGrid {
   DesignGrid(const Telescope& telescope, const DesignSpaceOptions& options,
              const std::vector<std::string>& axes, bool has_crossed_pairs = true);
 
+  /// The space that the grid's designs are of.
   const DesignSpace& space() const { return space_; }
+  /// The axes, outermost first.
   const std::vector<GridAxis>& axes() const { return axes_; }
+  /// The visiting orders that an axis `order` chooses from.
   const std::vector<VisitingOrder>& orders() const { return orders_; }
+  /// How many points there are, with and without a design.
   std::size_t size() const { return size_; }
 
   /// The index of a point's value on each axis.

@@ -29,9 +29,9 @@ struct Operation {
 
 /// All but the screen that a figure of merit depends on.
 struct MetricContext {
-  const SensorDesign& design;
-  const Operation& operation;
-  double fried_parameter;  ///< of the seeing at the telescope's wavelength, m
+  const SensorDesign& design;  ///< that was tried
+  const Operation& operation;  ///< what metrics of the servo loop and of time assume
+  double fried_parameter;      ///< of the seeing at the telescope's wavelength, m
 };
 
 /// A figure of merit of a design on one screen.

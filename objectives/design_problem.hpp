@@ -25,6 +25,7 @@ class DesignProblem final : public Problem {
   /// The detail is the TriedDesign.
   Assessment assess(const SearchPoint& point, const GoesOn& goes_on) override;
 
+  /// The space whose designs the points of the search stand for.
   const DesignSpace& space() const { return space_; }
 
  private:

@@ -21,8 +21,8 @@ enum class Scale { linear, logarithmic };
 
 /// The numbers from `lower` to `upper`.
 struct ValueRange {
-  double lower;
-  double upper;
+  double lower;                     ///< included
+  double upper;                     ///< included
   std::optional<Scale> scale = {};  ///< not set: as suits the property
 };
 
@@ -32,11 +32,11 @@ using Domain = std::variant<ValueRange, std::vector<double>>;
 
 /// A property of a sensor, other than its planes, that may be varied.
 struct DesignProperty {
-  std::string_view name;
-  VariableKind kind;  ///< integer: ranges are of whole numbers; categorical: lists only
-  Scale scale;        ///< of ranges, unless they have their own
-  double (*get)(const SensorDesign&);
-  void (*set)(SensorDesign&, double);
+  std::string_view name;  ///< as the sections search and sweep have it
+  VariableKind kind;      ///< integer: ranges are of whole numbers; categorical: lists only
+  Scale scale;            ///< of ranges, unless they have their own
+  double (*get)(const SensorDesign&);  ///< in SI; the place among the words of a categorical one
+  void (*set)(SensorDesign&, double);  ///< the inverse of get
 };
 
 /// All of them: pupil_pixels, detector_window, reconstruction_window, relaxation (start and end
@@ -64,7 +64,7 @@ std::vector<VisitingOrder> all_orders(int planes);
 /// Planes of a symmetric layout: the distances of their pairs, nearest first, and their order.
 struct SymmetricPlanes {
   std::vector<double> pairs;  ///< m, ascending
-  VisitingOrder order;
+  VisitingOrder order;        ///< of the planes
 };
 
 /// The pairs of planes that stand symmetrically; nothing for others.
@@ -85,8 +85,8 @@ DistanceRange default_distance_range(const Telescope& telescope);
 
 /// What a design space is made of.
 struct DesignSpaceOptions {
-  SensorDesign base = SensorDesign();  ///< everything that is not varied
-  Layout layout = Layout::symmetric;
+  SensorDesign base = SensorDesign();   ///< everything that is not varied
+  Layout layout = Layout::symmetric;    ///< how planes are placed
   std::vector<int> plane_counts = {4};  ///< each 2 to 6
   /// Orders of a symmetric layout that may be chosen; a number of planes without any has all.
   std::vector<VisitingOrder> orders = {};
@@ -106,6 +106,7 @@ class DesignSpace {
   /// @throws InputError where a domain is not valid or belongs to no design of the space
   DesignSpace(const Telescope& telescope, DesignSpaceOptions options);
   ~DesignSpace();
+  /// Takes over another's regions.
   DesignSpace(DesignSpace&& other) noexcept;
   DesignSpace(const DesignSpace& other) = delete;
   DesignSpace& operator=(const DesignSpace& other) = delete;

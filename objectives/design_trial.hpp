@@ -29,7 +29,7 @@ struct Condition {
 
 /// A design with how it did.
 struct TriedDesign {
-  SensorDesign design;
+  SensorDesign design;                    ///< that was tried
   std::vector<Performance> performances;  ///< one per condition
   /// Of each screen, aggregated over the conditions; their mean is the design's cost.
   std::vector<double> costs;
@@ -64,8 +64,11 @@ class DesignTrial {
   /// @throws InputError where a condition's simulation cannot have the design
   SensorDesign checked(SensorDesign design) const;
 
+  /// How many wavefronts there are under each condition.
   int screen_count() const { return conditions_.front().simulation->screen_count(); }
+  /// The conditions that every design is tried under.
   const std::vector<Condition>& conditions() const { return conditions_; }
+  /// How performances become costs.
   const DesignCost& cost() const { return cost_; }
 
  private:

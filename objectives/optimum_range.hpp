@@ -11,18 +11,18 @@ namespace nlcwfs {
 
 /// How far one variable of a design may move before the design is worse.
 struct OptimumRange {
-  std::string name;     ///< of the property, without "log"
-  double best;          ///< its value in the design, SI
-  double least;         ///< the lowest value tried that cannot be told from the best
-  double greatest;      ///< the highest
-  bool least_is_bound;  ///< the whole way to the end of the search's range is as good
-  bool greatest_is_bound;
+  std::string name;        ///< of the property, without "log"
+  double best;             ///< its value in the design, SI
+  double least;            ///< the lowest value tried that cannot be told from the best
+  double greatest;         ///< the highest
+  bool least_is_bound;     ///< the whole way to the end of the search's range is as good
+  bool greatest_is_bound;  ///< likewise at the other end
 };
 
 /// What a scan found, and what it took.
 struct OptimumScan {
-  std::vector<OptimumRange> ranges;
-  int designs = 0;  ///< that were tried
+  std::vector<OptimumRange> ranges;  ///< one for each variable
+  int designs = 0;                   ///< that were tried
 };
 
 /// Scans each continuous variable of a design on both sides, the others held, until the costs on

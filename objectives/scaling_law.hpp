@@ -20,13 +20,13 @@ struct ScalingDatum {
   MeanAndError z_near_talbot{};       ///< near pair's |Z| over Z_T(r0) = 2 r0^2 / lambda
   MeanAndError far_fresnel_number{};  ///< far pair's D^2 / (lambda |Z|)
   MeanAndError residual_wfe{};        ///< wavelengths
-  MeanAndError fractional_loops{};
+  MeanAndError fractional_loops{};    ///< mean over the screens
 };
 
 /// A power law in D/r0: ln(value) = intercept + slope ln(D/r0).
 struct LawLine {
-  double intercept = 0.0;
-  double slope = 0.0;
+  double intercept = 0.0;  ///< ln(value) at D/r0 = 1
+  double slope = 0.0;      ///< the power of D/r0 that the value goes with
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (intercept, slope)
   /// Standard deviation of ln(value) of single designs about the line, beyond their own standard
   /// errors.
@@ -40,10 +40,10 @@ struct LawLine {
 /// How a symmetric four-plane design follows the seeing. By constant Fresnel numbers D/r0 is all
 /// that it can depend on, for one detector, reconstruction and cost.
 struct ScalingLaw {
-  LawLine z_near_talbot;       ///< of the ScalingDatum members of the same names
-  LawLine far_fresnel_number;  ///< dimensionless
-  LawLine residual_wfe;        ///< wavelengths
-  LawLine fractional_loops;
+  LawLine z_near_talbot;            ///< of the ScalingDatum members of the same names
+  LawLine far_fresnel_number;       ///< dimensionless
+  LawLine residual_wfe;             ///< wavelengths
+  LawLine fractional_loops;         ///< until the reconstruction ends
   double least_d_over_r0 = 0.0;     ///< of the designs that it was fitted to
   double greatest_d_over_r0 = 0.0;  ///< likewise
   /// Visiting order: 1 = -near, 2 = +near, 3 = -far, 4 = +far.
@@ -61,9 +61,9 @@ struct ScalingLaw {
 
 /// What a law has a line of.
 struct ScalingQuantity {
-  std::string_view name;  ///< as in files, with the unit where there is one
-  MeanAndError ScalingDatum::*datum;
-  LawLine ScalingLaw::*line;
+  std::string_view name;              ///< as in files, with the unit where there is one
+  MeanAndError ScalingDatum::*datum;  ///< where a datum has it
+  LawLine ScalingLaw::*line;          ///< where the law has it
 };
 
 /// All of them: z_near_talbot, far_fresnel_number, residual_wfe_wavelengths, fractional_loops.

@@ -35,9 +35,9 @@ std::string_view to_string(Termination termination);
 
 /// One evaluation of the cost, in the order in which they happened.
 struct EvaluationRecord {
-  int index = 0;  ///< counts from 1
-  SearchPoint point;
-  std::string key;
+  int index = 0;             ///< counts from 1
+  SearchPoint point;         ///< that was evaluated
+  std::string key;           ///< Problem::key of the point
   double cost = 0.0;         ///< NaN where the evaluation failed
   double violation = 0.0;    ///< of the limits
   double best_cost = 0.0;    ///< of the best design so far, this one included; infinity before one
@@ -72,9 +72,11 @@ struct EvaluatorOptions {
 /// Thrown by the evaluator to unwind an optimizer when a limit is reached; searches turn it into
 /// their result's termination.
 struct SearchStopped : std::exception {
+  /// For the reason that a search ended with.
   explicit SearchStopped(Termination why) : termination(why) {}
+  /// Says that the search was stopped.
   const char* what() const noexcept override { return "the search was stopped"; }
-  Termination termination;
+  Termination termination;  ///< why the search ended
 };
 
 /// A search that cannot go on: evaluations fail one after the other. Names the last reason.
@@ -117,13 +119,18 @@ class Evaluator {
   /// @throws as above; where not all new designs may be evaluated, the first ones are
   std::vector<double> evaluate(const std::vector<SearchPoint>& requested);
 
+  /// Those of the problem.
   const std::vector<SubSpace>& sub_spaces() const { return sub_spaces_; }
+  /// Those of the point's sub-space.
   const std::vector<Variable>& variables_of(const SearchPoint& point) const {
     return sub_spaces_[static_cast<std::size_t>(point.sub_space)].variables;
   }
 
+  /// Designs that were tried, failures included.
   int evaluations() const { return evaluations_; }
+  /// Designs that could not be tried.
   int failures() const { return failures_; }
+  /// Points whose design had been tried already.
   int cache_hits() const { return cache_hits_; }
   const std::string& last_failure() const { return last_failure_; }  ///< empty without any
 

@@ -17,9 +17,9 @@ std::vector<std::string_view> pareto_algorithms();
 
 /// What to search with, and from where.
 struct ParetoOptions {
-  std::string algorithm = "nsga2";  ///< one of pareto_algorithms()
-  int population = 16;              ///< of each sub-space; a multiple of 4, at least 8
-  std::uint64_t seed = 1;
+  std::string algorithm = "nsga2";       ///< one of pareto_algorithms()
+  int population = 16;                   ///< of each sub-space; a multiple of 4, at least 8
+  std::uint64_t seed = 1;                ///< of the algorithm's random numbers
   std::vector<SearchPoint> starts = {};  ///< in the first populations, as many as fit
   /// Budget, time limit, stop, observer. What concerns one cost plays no part: target, stagnation
   /// and races.
@@ -32,9 +32,9 @@ struct ParetoResult {
   /// in all objectives and better in one. In ascending order of their objectives, the first one
   /// first. One design for equal objectives.
   std::vector<EvaluatedDesign> front;
-  Termination termination = Termination::stop_requested;
-  int evaluations = 0;
-  int failures = 0;    ///< evaluations without a cost
+  Termination termination = Termination::stop_requested;  ///< why the search ended
+  int evaluations = 0;                                    ///< designs that were tried
+  int failures = 0;                                       ///< evaluations without a cost
   int cache_hits = 0;  ///< designs asked for again, which cost nothing
 };
 

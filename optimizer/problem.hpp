@@ -21,11 +21,12 @@ enum class VariableKind {
 /// A variable of a search, in whatever unit and scale suits the problem (searches divide its range
 /// evenly, so a distance is best given as its logarithm).
 struct Variable {
-  std::string name;
-  double lower = 0.0;  ///< finite
-  double upper = 1.0;  ///< finite, above `lower`
-  VariableKind kind = VariableKind::continuous;
+  std::string name;                              ///< for messages and tables
+  double lower = 0.0;                            ///< finite
+  double upper = 1.0;                            ///< finite, above `lower`
+  VariableKind kind = VariableKind::continuous;  ///< which values it may have
 
+  /// Whether it may have every value of its range.
   bool is_continuous() const { return kind == VariableKind::continuous; }
 
   /// All values of a discrete variable; of a continuous one both ends of its range.
@@ -35,16 +36,18 @@ struct Variable {
 /// The designs that one set of variables describes. What has other variables (a sensor of another
 /// number of planes) is another sub-space.
 struct SubSpace {
-  std::string name;
+  std::string name;                 ///< for messages and tables
   std::vector<Variable> variables;  ///< at least one
 
+  /// How many variables may have every value of their ranges.
   int continuous_count() const;
+  /// Whether all of them may.
   bool is_continuous() const { return continuous_count() == static_cast<int>(variables.size()); }
 };
 
 /// A point of the search space.
 struct SearchPoint {
-  int sub_space = 0;
+  int sub_space = 0;  ///< index in the problem's
   Eigen::VectorXd x;  ///< one value per variable; of discrete ones a whole number
 };
 
@@ -54,8 +57,9 @@ SearchPoint lowest_point(const SubSpace& sub_space, int index);
 
 /// A point and what it costs.
 struct EvaluatedDesign {
-  SearchPoint point;
-  std::string key;  ///< Problem::key of the point
+  SearchPoint point;  ///< that stands for the design
+  std::string key;    ///< Problem::key of the point
+  /// What a search minimises.
   double cost = std::numeric_limits<double>::infinity();
   double violation = 0.0;               ///< 0 = the design keeps all limits
   std::vector<double> objectives = {};  ///< Assessment::objectives

@@ -33,6 +33,7 @@ class Archive {
   /// @throws std::runtime_error also where there is none, or its table has other columns
   static Archive reopened(const std::filesystem::path& path);
 
+  /// Appends an evaluation; it is on disk when this returns.
   void add(const ArchivedEvaluation& evaluation);
 
   /// Everything in it, in the order in which it was added.

@@ -12,13 +12,16 @@ namespace nlcwfs {
 /// with their units, then rows of numbers and words.
 class CsvTable {
  public:
+  /// Begins with the header.
   explicit CsvTable(const std::vector<std::string>& columns);
 
   /// Starts the next row.
   CsvTable& row();
   CsvTable& add(double value);  ///< the shortest digits that read back as the same number
+  /// Quoted where it must be.
   CsvTable& add(std::string_view text);
 
+  /// The table as a file has it.
   std::string text() const { return text_ + '\n'; }
 
  private:

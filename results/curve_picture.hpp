@@ -9,8 +9,8 @@ namespace nlcwfs {
 
 /// One line of a curve picture.
 struct Curve {
-  std::string label = {};  ///< empty = not in the key
-  std::vector<double> x = {};
+  std::string label = {};           ///< empty = not in the key
+  std::vector<double> x = {};       ///< of each point
   std::vector<double> y = {};       ///< as many; NaN where there is no value
   std::vector<double> spread = {};  ///< of each y, drawn as bars; none = no bars
   int colour = 0;                   ///< there are 5 that are distinct for the colour-blind
@@ -19,12 +19,12 @@ struct Curve {
 
 /// Quantities over another one.
 struct CurvePicture {
-  std::string title;
-  std::string x_label;  ///< ends with the unit
-  std::string y_label;  ///< ends with the unit
-  std::vector<Curve> curves;
-  bool has_log_x = false;
-  bool has_log_y = false;
+  std::string title;          ///< above the picture
+  std::string x_label;        ///< ends with the unit
+  std::string y_label;        ///< ends with the unit
+  std::vector<Curve> curves;  ///< in the order of the key
+  bool has_log_x = false;     ///< whether the axis is logarithmic
+  bool has_log_y = false;     ///< whether the axis is logarithmic
 };
 
 /// Draws a picture with gnuplot, as SVG and as PNG. What is there already is overwritten.

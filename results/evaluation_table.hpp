@@ -16,18 +16,19 @@ using TableCell = std::variant<std::monostate, double, std::string>;
 
 /// A column of a table, with a cell of every row.
 struct TableColumn {
-  std::string name;
+  std::string name;  ///< without the unit, unless the member that it is of has one
   std::string unit;  ///< as FITS writes it, such as "m"; empty where the values have none
-  std::vector<TableCell> cells;
+  std::vector<TableCell> cells;  ///< one for each row
 
   bool is_text() const;  ///< whether a cell is
 };
 
 /// A table of columns of one length.
 struct FlatTable {
-  std::vector<TableColumn> columns;
-  std::size_t rows = 0;
+  std::vector<TableColumn> columns;  ///< in the order in which they first had a value
+  std::size_t rows = 0;              ///< cells of each column
 
+  /// As a file of comma-separated values, see CsvTable.
   std::string csv() const;
 };
 

@@ -20,9 +20,9 @@ struct FitsCube {
 
 /// A card of a FITS header.
 struct FitsKeyword {
-  std::string name;
-  std::variant<std::string, double, std::uint64_t> value;
-  std::string comment;
+  std::string name;  ///< at most 8 capital letters, digits, - and _
+  std::variant<std::string, double, std::uint64_t> value;  ///< a text, a real or an integer number
+  std::string comment;  ///< with the unit in front, such as "[m] pupil diameter"
 };
 
 /// One axis of an image in world coordinates, whose pixels are evenly spaced (Greisen & Calabretta

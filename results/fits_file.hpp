@@ -23,8 +23,10 @@ void check_fits(int status);
 
 /// Closes a file, whatever came of it.
 struct CloseFits {
+  /// Closes it, even after an error.
   void operator()(fitsfile* file) const;
 };
+/// An open file.
 using FitsHandle = std::unique_ptr<fitsfile, CloseFits>;
 
 /// The name of a file for CFITSIO, which expands a leading ~ even in literal names: absolute.

@@ -11,7 +11,7 @@ namespace nlcwfs {
 
 /// What every picture that gnuplot draws has, apart from its data and axes.
 struct GnuplotFigure {
-  std::string title;
+  std::string title;               ///< above the picture
   int key_rows = 0;                ///< of the symbols' meanings below the picture; 0 = none
   std::vector<std::string> plots;  ///< of one plot command
 };

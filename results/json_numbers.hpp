@@ -11,6 +11,7 @@ namespace nlcwfs {
 // Numbers as summaries have them. JSON has none for what is not finite: there it has null, which is
 // read as NaN. All throw nlohmann::json::exception for other values.
 
+/// Of a number, or null.
 double number_from_json(const nlohmann::ordered_json& json);
 
 /// Of {"mean": ..., "standard_error": ...}.

@@ -12,7 +12,7 @@ namespace nlcwfs {
 class OutputFolder {
  public:
   /// Makes the folder.
-  /// @param requested  the folder that the user named; nothing = results/<command>-<n>, the first
+  /// @param requested  the folder that the user named; nothing = `results/<command>-<n>`, the first
   ///                   that is free, below the current directory
   /// @throws InputError where the requested folder exists; std::runtime_error where it cannot be
   ///         made
@@ -26,7 +26,9 @@ class OutputFolder {
   /// @pre it exists
   static OutputFolder of_earlier_run(const std::filesystem::path& path);
 
+  /// As the user sees it.
   const std::filesystem::path& path() const { return path_; }
+  /// The path of a file in it.
   std::filesystem::path file(std::string_view name) const { return path_ / name; }
 
   /// Writes a text file, under another name until it is complete.

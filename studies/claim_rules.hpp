@@ -16,14 +16,14 @@ namespace nlcwfs {
 /// A claim with how it is checked. Rules were written down before the numbers were known, except
 /// where a definition had to be mended because noise decided it.
 struct ClaimRule {
-  std::string_view figure;
-  std::string_view sentence;
-  std::string_view papers;
-  std::string_view rule;
-  ClaimFinding (*find)(const SetupRuns& runs);
+  std::string_view figure;    ///< of reproduced_figures, whose runs it is checked on
+  std::string_view sentence;  ///< in our words
+  std::string_view papers;    ///< its number
+  std::string_view rule;      ///< what counts as reproduced, and what as its trend
+  ClaimFinding (*find)(const SetupRuns& runs);  ///< checks it in one set-up
   /// What decides the outcome, in either set-up.
   std::string_view papers_why;
-  std::string_view extended_why;
+  std::string_view extended_why;  ///< with the extended truth
 };
 
 // By the part of the paper.
@@ -32,7 +32,9 @@ std::vector<ClaimRule> plane_count_claims();  ///< figures 4 and 5
 std::vector<ClaimRule> sampling_claims();     ///< figure 6
 std::vector<ClaimRule> broadband_claims();    ///< figures 7 and 8
 
+/// A kilometre, m.
 inline constexpr double km = 1e3;
+/// That of the paper's simulations.
 inline constexpr Telescope papers_telescope{.diameter = 0.5, .wavelength = 532e-9};
 
 /// m
@@ -40,6 +42,7 @@ inline double talbot_distance_of_seeing(double d_over_r0) {
   return talbot_distance(papers_telescope.diameter / d_over_r0, papers_telescope.wavelength);
 }
 
+/// What two findings of a rule come to.
 inline ClaimVerdict verdict_of(bool reproduced, bool in_trend) {
   if (reproduced) return ClaimVerdict::reproduced;
   return in_trend ? ClaimVerdict::in_trend : ClaimVerdict::not_reproduced;

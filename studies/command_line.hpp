@@ -12,7 +12,7 @@ namespace nlcwfs {
 
 /// One of the program's commands.
 struct Command {
-  std::string name;
+  std::string name;         ///< as it is typed
   std::string description;  ///< one line
   bool resumable = false;   ///< takes --resume
   /// Names of what must follow the command, such as folders; mostly none.
@@ -26,16 +26,16 @@ const std::vector<Command>& commands();
 struct CommandLine {
   std::string command;                 ///< one of commands(); empty only with help or version
   std::vector<std::string> arguments;  ///< what follows the command, as many as it takes
-  Configuration configuration;
+  Configuration configuration;         ///< what files, preset and command line say together
   std::optional<std::filesystem::path> output;  ///< directory for the results
   std::optional<std::filesystem::path> resume;  ///< folder of the run to go on with
   int threads = 0;                              ///< 0 = all cores
-  bool quiet = false;
-  bool silent = false;   ///< print no results either: for runs that are parts of another
-  bool verify = false;   ///< simulate what advise predicts; only for advise
-  bool help = false;     ///< then the configuration holds the defaults
-  bool version = false;  ///< then the configuration holds the defaults
-  bool dump_config = false;
+  bool quiet = false;                           ///< print no progress
+  bool silent = false;       ///< print no results either: for runs that are parts of another
+  bool verify = false;       ///< simulate what advise predicts; only for advise
+  bool help = false;         ///< then the configuration holds the defaults
+  bool version = false;      ///< then the configuration holds the defaults
+  bool dump_config = false;  ///< print the configuration, and stop
 };
 
 /// Reads the command line and the files and the preset that it names; the command line's values

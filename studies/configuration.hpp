@@ -34,11 +34,14 @@ enum class Kind {
 
 /// Where a number must lie, in SI; everywhere unless said otherwise.
 struct Bounds {
+  /// The least value that is allowed.
   double least = -std::numeric_limits<double>::infinity();
+  /// The greatest value that is allowed.
   double greatest = std::numeric_limits<double>::infinity();
-  bool least_included = true;
-  bool greatest_included = true;
+  bool least_included = true;     ///< whether the least is allowed itself
+  bool greatest_included = true;  ///< whether the greatest is allowed itself
 
+  /// Whether a value is allowed.
   bool contain(double value) const;
   /// For people: "above 0", "from 1 to 64"; empty without bounds.
   std::string text() const;
@@ -46,8 +49,8 @@ struct Bounds {
 
 /// One row of the table of configuration keys, which is also the user's documentation of them.
 struct ConfigurationKey {
-  std::string name;  ///< section.key
-  Kind kind = Kind::text;
+  std::string name;                       ///< section.key
+  Kind kind = Kind::text;                 ///< what its text stands for
   std::string default_text = {};          ///< empty = not set
   std::string description = {};           ///< what it means, one line
   std::string unit = {};                  ///< of a number; lengths and times have m and s
@@ -72,11 +75,12 @@ const std::vector<ConfigurationKey>& configuration_keys();
 
 /// Values that are set together under one name.
 struct Preset {
-  std::string name;
-  std::string description;
+  std::string name;                                         ///< as it is typed
+  std::string description;                                  ///< a few words
   std::vector<std::pair<std::string, std::string>> values;  ///< key, value
 };
 
+/// Every preset, in the order of the help.
 const std::vector<Preset>& presets();
 
 /// A value for every key, with where it came from. A later value replaces an earlier one, so the
@@ -105,11 +109,15 @@ class Configuration {
   ///         seeing from the same file or command line
   void set(std::string_view key, std::string_view value, std::string_view source);
 
+  /// Of a key of Kind::number.
   double number(std::string_view key) const;
+  /// Of a key of Kind::number_list.
   std::vector<double> numbers(std::string_view key) const;
   /// Nothing where not set.
   std::optional<double> optional_number(std::string_view key) const;
+  /// Of a key of Kind::integer.
   int integer(std::string_view key) const;
+  /// Of a key of Kind::seed.
   std::uint64_t seed(std::string_view key) const;
   /// m
   double length(std::string_view key) const;
@@ -134,6 +142,7 @@ class Configuration {
   /// As written; empty where not set.
   const std::string& text(std::string_view key) const;
 
+  /// Whether the key has a value, its default or another.
   bool is_set(std::string_view key) const;
   /// "by default", "by --preset paper", "in my.cfg, line 3", "on the command line", ...
   const std::string& source(std::string_view key) const;
@@ -144,6 +153,7 @@ class Configuration {
   /// configuration. Keys that are not set stand in a comment.
   std::string dump() const;
 
+  /// Whether every key has the same text.
   bool operator==(const Configuration& other) const;
 
  private:

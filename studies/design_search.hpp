@@ -33,7 +33,7 @@ void require_verifiable_designs(const Configuration& configuration, const Design
 
 /// What a search found, and what it took.
 struct DesignSearchResult {
-  SearchResult search;
+  SearchResult search;  ///< of the search proper
   /// The search's best few on fresh screens, by their costs there, best first.
   std::vector<RankedDesign> ranking;
   TriedDesign baseline;   ///< on the same screens
@@ -45,9 +45,10 @@ struct DesignSearchResult {
   long search_reconstructions = 0;  ///< of both stages
   long saved_reconstructions = 0;   ///< that races left out
   long reconstructions = 0;         ///< verification and ranges included
-  double search_seconds = 0.0;
-  std::string table;  ///< CSV of the designs of the search
+  double search_seconds = 0.0;      ///< of both stages, s
+  std::string table;                ///< CSV of the designs of the search
 
+  /// The best of the ranking.
   const TriedDesign& best() const { return ranking.front().verified; }
 };
 
@@ -61,15 +62,15 @@ class DesignSearch {
   /// ends the search with the best designs so far.
   DesignSearchResult run(Archive& archive, bool quiet) const;
 
-  const Telescope telescope;
-  const Seeing seeing;  ///< the first, where there are several
-  const DesignSpace space;
+  const Telescope telescope;       ///< that designs are for
+  const Seeing seeing;             ///< the first, where there are several
+  const DesignSpace space;         ///< that the search has designs of
   SearchOptions options;           ///< of the search proper
   std::vector<std::string> notes;  ///< for the user
   const DesignTrial trial;         ///< of the search
-  const DesignTrial verification;
-  const DesignTrial scan;  ///< for the ranges
-  const SensorDesign baseline;
+  const DesignTrial verification;  ///< on fresh screens
+  const DesignTrial scan;          ///< for the ranges
+  const SensorDesign baseline;     ///< that the best is compared with
 
  private:
   struct CheapStage {

@@ -30,9 +30,9 @@ std::string choices_text(const DesignSpace& space, const SensorDesign& design);
 
 /// A column of a performance table.
 struct PerformanceColumn {
-  std::string heading;
-  const Performance* performance;
-  std::vector<double> costs;  ///< of each screen
+  std::string heading;             ///< above the column
+  const Performance* performance;  ///< what is in it
+  std::vector<double> costs;       ///< of each screen
 };
 
 /// A table of the metrics that people look at first, one column per design.

@@ -14,14 +14,14 @@ namespace nlcwfs {
 
 /// A design with what it costs.
 struct CostedDesign {
-  SensorDesign design;
-  double cost;
+  SensorDesign design;  ///< whose place on the grid is marked
+  double cost;          ///< NaN where it is not known
 };
 
 /// A search to draw over a grid.
 struct SearchPath {
   std::vector<CostedDesign> designs;  ///< in the order of their evaluation
-  CostedDesign best;
+  CostedDesign best;                  ///< of them
 };
 
 /// Draws a figure of a sweep's grid: a map over two axes, a line over one. Of more axes than two,

@@ -20,9 +20,9 @@ namespace nlcwfs {
 /// Where `law` has the order alone, its lines are fitted to the data. Configuration keys that are
 /// not among the conditions are at their defaults.
 struct LawFile {
-  Configuration conditions;  ///< that the designs were found under, apart from their D/r0
-  std::vector<ScalingDatum> data;
-  ScalingLaw law;
+  Configuration conditions;        ///< that the designs were found under, apart from their D/r0
+  std::vector<ScalingDatum> data;  ///< that the law is fitted to
+  ScalingLaw law;                  ///< the fit
 };
 
 /// The member `law` above.

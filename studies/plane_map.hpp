@@ -22,11 +22,14 @@ class PlaneMap {
   /// @param grid  the object `grid` of a sweep's summary, which must outlive the map
   explicit PlaneMap(const nlohmann::ordered_json& grid);
 
+  /// Distances of the near pair, m.
   const std::vector<double>& near() const { return near_; }
+  /// Distances of the far pair, m.
   const std::vector<double>& far() const { return far_; }
 
   /// A figure as the grid names it, "residual_wfe_nm", ...; NaN where the map has no design.
   double value(const std::string& figure, std::size_t near, std::size_t far) const;
+  /// The same with its standard error.
   MeanAndError mean(const std::string& figure, std::size_t near, std::size_t far) const;
 
   /// Its values at the designs that are wanted and that the map has.

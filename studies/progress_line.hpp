@@ -9,6 +9,7 @@ namespace nlcwfs {
 /// where the user wants quiet. Goes to standard error.
 class ProgressLine {
  public:
+  /// A quiet one shows nothing.
   explicit ProgressLine(bool quiet);
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;

@@ -20,6 +20,7 @@ class ReproducedRuns {
   /// @param folder  of the reproduction
   explicit ReproducedRuns(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
+  /// A run's summary.json.
   const nlohmann::ordered_json& summary(const std::string& run) const;
 
   /// A metric of each wavefront, of an evaluate or a convergence.
@@ -33,6 +34,7 @@ class ReproducedRuns {
 /// The runs of one set-up, as its claims ask for them.
 class SetupRuns {
  public:
+  /// The finished runs of one set-up.
   SetupRuns(const ReproducedRuns& runs, Setup setup) : runs_(runs), setup_(setup) {}
 
   /// @param run  below its figure, without the set-up; empty where the set-up is all of its name
@@ -49,6 +51,7 @@ class SetupRuns {
   MeanAndError design_difference(const std::string& name, const std::string& other,
                                  const char* metric) const;
 
+  /// A metric of each wavefront, of an evaluate or a convergence.
   std::vector<double> screens(std::string_view figure, const std::string& run,
                               const std::string& metric) const;
 

@@ -11,9 +11,9 @@ namespace nlcwfs {
 
 /// One run of a command that a reproduction is made of.
 struct PlannedRun {
-  std::string folder;  ///< below the reproduction's: "figure-3/paper-4"
-  std::string command;
-  Configuration configuration;
+  std::string folder;           ///< below the reproduction's: "figure-3/paper-4"
+  std::string command;          ///< that it runs
+  Configuration configuration;  ///< all of its keys
 };
 
 /// What a reproduction may have, as reproduce.figures names it.
@@ -25,21 +25,25 @@ enum class Setup {
   paper,    ///< the paper's: data on the reconstruction's own grid, rms_change
   extended  ///< data on an extended grid, difference
 };
+/// Both of them.
 inline constexpr std::array setups{Setup::paper, Setup::extended};
+/// As names of runs have it.
 std::string_view to_string(Setup setup);
 
-/// D/r0 of the maps of figure 3 and of the curves of figure 6.
+/// D/r0 of the maps of figure 3.
 inline constexpr std::array map_ratios{4, 6, 8};
+/// D/r0 of the curves of figure 6.
 inline constexpr std::array sampling_ratios{4, 6, 8, 10};
 
 /// A row of Table 1 of the paper, with the ends of its bands rounded up to whole nm: 500-549 is
 /// 500nm:550nm, whose middle is the paper's 525 nm. For P2 of the wide band the paper prints
 /// 500-69; it can only be 500-699.
 struct PaperBand {
-  std::string_view name;
+  std::string_view name;   ///< in names of runs
   std::string_view bands;  ///< as source.bands; empty = one wavelength
   int wavelengths;         ///< per plane
 };
+/// The rows of the table, and light of one wavelength.
 inline constexpr std::array<PaperBand, 4> paper_bands{
     {{"monochromatic", "", 1},
      {"narrow", "500nm:550nm,550nm:600nm,600nm:650nm,650nm:700nm", 25},
@@ -48,9 +52,10 @@ inline constexpr std::array<PaperBand, 4> paper_bands{
 
 /// A telescope that the paper's design is moved to, or a change of the numerics.
 struct NamedSettings {
-  std::string name;
+  std::string name;                                           ///< in names of runs
   std::vector<std::pair<std::string, std::string>> settings;  ///< key, value
 };
+/// The telescopes that the paper's design is moved to.
 const std::vector<NamedSettings>& scaled_telescopes();
 /// What the numerics decide: settings that are laid over the paper's.
 /// @param screens  of the reproduction; two variants have more

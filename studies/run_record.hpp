@@ -19,7 +19,9 @@ class RunRecord {
   /// the earlier run. Call it when nothing in the input can be wrong any more.
   explicit RunRecord(const CommandLine& command_line);
 
+  /// Where the run writes to.
   const OutputFolder& folder() const { return folder_; }
+  /// The run's evaluations.
   Archive& archive() { return archive_; }
 
   /// Writes summary.json: command, version, config (every key with its text, null where not set),

@@ -24,6 +24,7 @@ class SearchLog {
             double fried_parameter, const EvaluatorOptions& limits, Archive& archive, bool quiet,
             std::vector<DesignMetric> objectives = {});
 
+  /// Archives an evaluation, and shows how far the search is.
   void add(const EvaluationRecord& evaluation);
 
   /// Of the screens of all designs, those given up included.

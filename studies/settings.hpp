@@ -20,6 +20,7 @@ namespace nlcwfs {
 // A configuration's texts as the types of the physics. All throw InputError where values that are
 // allowed each do not go together.
 
+/// Of the section telescope.
 Telescope telescope_of(const Configuration& configuration);
 
 /// The planes that stand by default or by the paper's preset, which are those of the paper's

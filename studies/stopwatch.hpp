@@ -7,6 +7,7 @@ namespace nlcwfs {
 /// Runs from when it is made.
 class Stopwatch {
  public:
+  /// How long ago it was made, s.
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }

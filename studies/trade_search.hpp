@@ -19,7 +19,7 @@ namespace nlcwfs {
 
 /// A design of a trade's front on fresh screens.
 struct TradedDesign {
-  TriedDesign verified;
+  TriedDesign verified;                  ///< on fresh screens
   std::vector<MeanAndError> objectives;  ///< there, in the metrics' own units and signs
   /// Another of the front is no worse there in any objective, and in one of them better by
   /// Student's t test at 5 %, paired by screen.
@@ -28,7 +28,7 @@ struct TradedDesign {
   std::optional<std::size_t> tied_with = {};
   /// The objectives of each screen, and their means as figures to be minimised.
   std::vector<std::vector<double>> samples;
-  EvaluatedDesign evaluated;
+  EvaluatedDesign evaluated;  ///< as the search saw it
 
   /// Whether it is one of the best compromises: not dominated, and within the limits.
   bool stands() const { return !dominated && evaluated.violation == 0.0; }
@@ -36,13 +36,13 @@ struct TradedDesign {
 
 /// A bound on one objective, and the least of the first objective that is possible within it.
 struct BoundedBest {
-  double bound;
+  double bound;        ///< upper, in the objective's unit
   std::size_t design;  ///< index in the front
 };
 
 /// What a trade found, and what it took.
 struct TradeResult {
-  ParetoResult search;
+  ParetoResult search;  ///< of all numbers of planes together
   /// The verified designs, ordered by planes, pixels and the first objective.
   std::vector<TradedDesign> front;
   std::optional<std::size_t> knee;       ///< of those that stand; nothing where none does
@@ -53,11 +53,12 @@ struct TradeResult {
   double hypervolume_fraction = 0.0;
   /// For each objective but the first: the first objective's best under ever wider bounds on it.
   std::vector<std::vector<BoundedBest>> bests;
-  bool verification_interrupted = false;
-  long reconstructions = 0;  ///< the verification included
-  double search_seconds = 0.0;
-  std::string table;  ///< CSV of the designs of the search
+  bool verification_interrupted = false;  ///< whether Ctrl-C left designs of the front unverified
+  long reconstructions = 0;               ///< the verification included
+  double search_seconds = 0.0;            ///< without the verification, s
+  std::string table;                      ///< CSV of the designs of the search
 
+  /// How many of the verified designs no other betters on fresh screens.
   std::size_t standing_count() const;
 };
 
@@ -72,14 +73,14 @@ class TradeSearch {
   /// the front so far, and the verification with the designs so far.
   TradeResult run(Archive& archive, bool quiet) const;
 
-  const Telescope telescope;
-  const Seeing seeing;  ///< the first, where there are several
-  const DesignSpace space;
-  const std::vector<DesignMetric> objectives;
-  ParetoOptions options;
-  std::vector<std::string> notes;  ///< for the user
-  const DesignTrial trial;         ///< of the search
-  const DesignTrial verification;
+  const Telescope telescope;                   ///< that designs are for
+  const Seeing seeing;                         ///< the first, where there are several
+  const DesignSpace space;                     ///< that the search has designs of
+  const std::vector<DesignMetric> objectives;  ///< what is minimised at once
+  ParetoOptions options;                       ///< of the search
+  std::vector<std::string> notes;              ///< for the user
+  const DesignTrial trial;                     ///< of the search
+  const DesignTrial verification;              ///< on fresh screens
 
  private:
   void verify_front(TradeResult& result, Archive& archive, bool quiet) const;

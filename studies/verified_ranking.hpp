@@ -21,7 +21,7 @@ TriedDesign verified_design(const SensorDesign& design, const std::string& name,
 /// One of the best designs of a search or a sweep, held against the best of them on fresh screens.
 struct RankedDesign {
   std::size_t candidate = 0;  ///< its place among those that were verified
-  TriedDesign verified;
+  TriedDesign verified;       ///< on fresh screens
   /// The best design's cost minus this one's, paired by screen; better or worse than the best where
   /// it can be told apart.
   Improvement against_best = {};
@@ -30,6 +30,7 @@ struct RankedDesign {
 /// Those that keep the limits, or come closest, first; of these by their costs.
 std::vector<RankedDesign> ranked(std::vector<TriedDesign> verified);
 
+/// A ranking as summaries have it.
 nlohmann::ordered_json to_json(const std::vector<RankedDesign>& ranking,
                                const DesignTrial& verification);
 
