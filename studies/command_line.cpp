@@ -1,6 +1,8 @@
 #include "studies/command_line.hpp"
 
 #include "model/input_error.hpp"
+#include "studies/commands.hpp"
+#include "studies/program_options.hpp"
 #include "studies/text.hpp"
 #include "studies/units.hpp"
 
@@ -22,106 +24,25 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr unsigned columns = 100;
-
-std::string value_name(const ConfigurationKey& key) {
-  switch (key.kind) {
-    case Kind::number:
-      return "NUMBER";
-    case Kind::number_list:
-      return "NUMBERS";
-    case Kind::integer:
-      return "INTEGER";
-    case Kind::seed:
-      return "SEED";
-    case Kind::length:
-      return "LENGTH";
-    case Kind::length_list:
-      return "LENGTHS";
-    case Kind::bands:
-      return "BANDS";
-    case Kind::domain:
-      return "MIN:MAX";
-    case Kind::axis:
-      return "MIN:MAX:N";
-    case Kind::orders:
-      return "ORDERS";
-    case Kind::time:
-      return "TIME";
-    case Kind::ramp:
-      return "NUMBER";
-    case Kind::choice:
-      return "WORD";
-    case Kind::text:
-      return "TEXT";
-  }
-  return "TEXT";
-}
-
 /// A value that Boost hands over as it stands.
 po::value_semantic* text_value(const std::string& name) {
   return po::value<std::string>()->value_name(name);
 }
 
-/// The options that are no configuration keys.
-po::options_description general_options() {
-  std::vector<std::string> preset_texts;
-  for (const Preset& preset : presets()) {
-    preset_texts.push_back(fmt::format("{} ({})", preset.name, preset.description));
-  }
-  const std::string preset_text =
-      fmt::format("start from a named set of values: {}", fmt::join(preset_texts, ", "));
-  po::options_description options("Options", columns, columns / 2);
-  const auto add = [&](const char* name, const std::string& value, const std::string& text) {
-    options.add_options()(name, text_value(value), text.c_str());
-  };
-  const auto add_flag = [&](const char* name, const char* text) {
-    options.add_options()(name, text);
-  };
-  add("config", "FILE", "read a configuration file; of several, the later wins");
-  add("preset", "NAME", preset_text);
-  add("output", "DIR", "write the results there [results/<command>-<n>]");
-  add("resume", "DIR",
-      "sweep, reproduce: go on with the interrupted run in this folder, as it is configured");
-  add("figure", "N",
-      "reproduce: run only this figure of the paper, or another part that reproduce.figures knows; "
-      "may be given several times");
-  add("threads", "N", "use this many cores, 0 = all [0]");
-  add_flag("quiet", "print no progress");
-  add_flag("verify", "advise: simulate the design on fresh screens, as the section verify says");
-  add_flag("dump-config", "print every key with its value as a configuration file, and stop");
-  add_flag("help", "print this text, and stop");
-  add_flag("version", "print the version, and stop");
-  return options;
-}
-
-/// The keys of the configuration, one group per section.
-po::options_description key_options() {
-  po::options_description all("Configuration keys [default], here or in a file", columns,
-                              columns / 2);
-  const auto section_of = [](const ConfigurationKey& key) {
-    return key.name.substr(0, key.name.find('.'));
-  };
-  const auto& keys = configuration_keys();
-  for (auto key = keys.begin(); key != keys.end();) {
-    const std::string section = section_of(*key);
-    po::options_description group(section, columns, columns / 2);
-    for (; key != keys.end() && section_of(*key) == section; ++key) {
-      std::string text = key->description;
-      if (!key->unit.empty()) text += fmt::format(" In {}.", key->unit);
-      if (key->kind == Kind::choice) text += fmt::format(" {}.", fmt::join(key->choices, " | "));
-      if (!key->default_text.empty()) text += fmt::format(" [{}]", key->default_text);
-      group.add_options()(key->name.c_str(), text_value(value_name(*key)), text.c_str());
+/// Everything that may stand on a command line besides the command and its arguments.
+po::options_description known_options() {
+  po::options_description options;
+  for (const ProgramOption& option : program_options()) {
+    if (option.value_name.empty()) {
+      options.add_options()(option.name.c_str(), "");
+    } else {
+      options.add_options()(option.name.c_str(), text_value(option.value_name));
     }
-    all.add(group);
   }
-  return all;
-}
-
-std::vector<std::string> command_names() {
-  std::vector<std::string> names;
-  for (const Command& command : commands()) names.push_back(command.name);
-  return names;
+  for (const ConfigurationKey& key : configuration_keys()) {
+    options.add_options()(key.name.c_str(), text_value(value_name(key)));
+  }
+  return options;
 }
 
 /// The command and the names of its arguments.
@@ -167,10 +88,6 @@ std::vector<po::option> parse_options(int argc, const char* const* argv,
     }
     refuse_missing_value(error.get_option_name());
   }
-}
-
-const Command& command_of(const std::string& name) {
-  return *std::ranges::find(commands(), name, &Command::name);
 }
 
 /// Reads what is no option: the command, then its arguments.
@@ -254,32 +171,8 @@ int parse_threads(const std::string& value) {
 
 }  // namespace
 
-const std::vector<Command>& commands() {
-  static const std::vector<Command> known{
-      {"evaluate", "measure one design: wavefront error, loops and time with standard errors"},
-      {"convergence", "follow one design's residual wavefront error from loop to loop"},
-      {"response",
-       "measure how much of single spatial frequencies a design recovers, beside prediction"},
-      {"screens", "make phase screens: a FITS cube and its statistics"},
-      {"scale", "move a design to another telescope or bench at equal Fresnel numbers"},
-      {"sweep", "try every design of a grid: maps of all figures, and the best, verified", true},
-      {"optimize", "find a telescope's best design and verify it on fresh screens"},
-      {"compare",
-       "hold a search against a sweep: both best designs on fresh screens, and what each cost",
-       false,
-       {"SWEEP", "OPTIMIZE"}},
-      {"trade", "try several objectives at once: the front of the best compromises, verified"},
-      {"law", "fit the scaling law that advise follows to the best designs at several D/r0"},
-      {"advise", "tell a telescope's planes from the scaling law; --verify simulates them"},
-      {"reproduce",
-       "run every study of Letchev et al. 2022 and hold its claims against the results", true},
-      {"benchmark", "time a configuration on this machine; writes files only with --output"}};
-  return known;
-}
-
 CommandLine parse_command_line(int argc, const char* const* argv) {
-  po::options_description known = general_options();
-  known.add(key_options());
+  const po::options_description known = known_options();
 
   const std::map<std::string, bool CommandLine::*> flags{
       {"quiet", &CommandLine::quiet},
@@ -352,29 +245,6 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     result.configuration.set(key, value, "on the command line");
   }
   return result;
-}
-
-std::string help_text(std::string_view command) {
-  std::ostringstream text;
-  text << fmt::format(
-      "Usage: nlcwfs {} [--preset NAME] [--config FILE]... [--section.key VALUE]...\n"
-      "              [--output DIR] [--threads N] [--quiet]\n\n",
-      command.empty()
-          ? "<command>"
-          : fmt::format("{}", fmt::join(usage_words(command_of(std::string(command))), " ")));
-  if (command.empty()) text << "Commands:\n";
-  for (const Command& known : commands()) {
-    if (command.empty() || command == known.name) {
-      text << fmt::format("  {:<10} {}\n", known.name, known.description);
-    }
-  }
-  text << '\n' << general_options() << '\n';
-  text << "A configuration file holds [section] lines and key = value lines; # starts a comment. "
-          "The command\nline overrides files, files override the preset. Lengths may be written "
-          "in nm, um, mm, cm, m or\nkm, times in us, ms, s, min or h; without a unit they are in "
-          "m and s.\n\n";
-  text << key_options();
-  return text.str();
 }
 
 }  // namespace nlcwfs

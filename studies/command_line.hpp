@@ -5,22 +5,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nlcwfs {
-
-/// One of the program's commands.
-struct Command {
-  std::string name;         ///< as it is typed
-  std::string description;  ///< one line
-  bool resumable = false;   ///< takes --resume
-  /// Names of what must follow the command, such as folders; mostly none.
-  std::vector<std::string> arguments = {};
-};
-
-/// Every command, in the order of the help.
-const std::vector<Command>& commands();
 
 /// What the user asked for.
 struct CommandLine {
@@ -42,9 +29,5 @@ struct CommandLine {
 /// override the files', later files earlier ones, files the preset, the preset the defaults.
 /// @throws InputError for what it cannot follow
 CommandLine parse_command_line(int argc, const char* const* argv);
-
-/// Usage, commands, options and configuration keys, for a terminal of 100 columns.
-/// @param command  one of commands(), or empty for the program as a whole
-std::string help_text(std::string_view command);
 
 }  // namespace nlcwfs

@@ -1,6 +1,8 @@
 #include "model/input_error.hpp"
 #include "results/output_folder.hpp"
 #include "studies/command_line.hpp"
+#include "studies/commands.hpp"
+#include "studies/help_text.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
 #include "studies/text.hpp"
@@ -30,7 +32,8 @@ void run(int argc, const char* const* argv) {
     return;
   }
   if (command_line.help) {
-    fmt::print("{}", help_text(command_line.command));
+    fmt::print("{}", command_line.command.empty() ? program_help()
+                                                  : command_help(command_of(command_line.command)));
     return;
   }
   scale_default_planes(command_line.configuration);

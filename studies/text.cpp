@@ -59,6 +59,19 @@ std::string one_line(std::string_view text) {
   return text.size() > longest ? line + "..." : line;
 }
 
+std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines;
+  while (text.size() > width) {
+    const auto space = text.rfind(' ', width);
+    const std::size_t end = space == std::string_view::npos || space == 0 ? width : space;
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+    if (text.starts_with(' ')) text.remove_prefix(1);
+  }
+  lines.emplace_back(text);
+  return lines;
+}
+
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
   assert(!words.empty());
   const bool has_section = word.find('.') != std::string_view::npos;

@@ -19,6 +19,10 @@ std::string without_controls(std::string_view text);
 /// one is "(nothing)".
 std::string one_line(std::string_view text);
 
+/// Lines of at most `width` characters, broken between words; a longer word is broken where it
+/// must.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width);
+
 /// The word that a user most likely meant: the one with the smallest edit distance to `word`; the
 /// first among equals. A word without a dot is held against what stands behind the last dot
 /// (`diameter` means `telescope.diameter`), and an abbreviation is near what it abbreviates.

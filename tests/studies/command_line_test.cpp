@@ -1,5 +1,6 @@
 #include "studies/command_line.hpp"
 
+#include "studies/commands.hpp"
 #include "tests/message_of.hpp"
 
 #include <fstream>
@@ -279,48 +280,6 @@ TEST(CommandLine, EveryMessageIsOneLine) {
                                              {"evaluate", "--screens.file=a\nb"},
                                              {"evaluate", "--quiet=a\nb"}}) {
     EXPECT_THAT(parse_message(arguments), AllOf(Not(""), Not(HasSubstr("\n"))));
-  }
-}
-
-TEST(CommandLine, HelpListsCommandsOptionsAndKeysIn100Columns) {
-  const std::string help = help_text("");
-  std::istringstream lines(help);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
-  EXPECT_THAT(help, StartsWith("Usage: nlcwfs <command> "));
-  for (const Command& command : commands()) {
-    EXPECT_THAT(help, AllOf(HasSubstr("\n  " + command.name), HasSubstr(command.description)));
-  }
-  for (const char* option : {"config", "preset", "output", "resume", "figure", "threads", "quiet",
-                             "verify", "dump-config", "help", "version"}) {
-    EXPECT_THAT(help, HasSubstr(std::string("\n  --") + option + " "));
-  }
-  // A long default may be broken over two lines.
-  const auto without_spaces = [](std::string text) {
-    std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
-    return text;
-  };
-  const std::string run_together = without_spaces(help);
-  for (const ConfigurationKey& key : configuration_keys()) {
-    EXPECT_THAT(help, HasSubstr("\n  --" + key.name + " "));
-    if (!key.default_text.empty()) {
-      EXPECT_THAT(run_together, HasSubstr(fmt::format("[{}]", without_spaces(key.default_text))))
-          << key.name;
-    }
-  }
-}
-
-TEST(CommandLine, HelpOfACommandIsAboutThatCommand) {
-  for (const Command& command : commands()) {
-    const std::string help = help_text(command.name);
-    EXPECT_THAT(help, StartsWith("Usage: nlcwfs " + command.name + " "));
-    for (const Command& other : commands()) {
-      const auto mentions = HasSubstr(other.description);
-      if (other.name == command.name) {
-        EXPECT_THAT(help, mentions);
-      } else {
-        EXPECT_THAT(help, Not(mentions));
-      }
-    }
   }
 }
 

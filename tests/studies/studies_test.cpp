@@ -1,5 +1,5 @@
 #include "results/fits_cube.hpp"
-#include "studies/command_line.hpp"
+#include "studies/commands.hpp"
 #include "studies/settings.hpp"
 #include "studies/version.hpp"
 #include "tests/studies/program.hpp"

@@ -49,5 +49,13 @@ TEST(Text, NearestWordKnowsSectionsAndAbbreviations) {
   EXPECT_EQ(nearest_word("plane", keys), "sensor.planes");
 }
 
+TEST(Text, WrappedBreaksBetweenWordsAndLongWordsWhereItMust) {
+  using testing::ElementsAre;
+  EXPECT_THAT(wrapped("one two three", 7), ElementsAre("one two", "three"));
+  EXPECT_THAT(wrapped("one two three", 8), ElementsAre("one two", "three"));
+  EXPECT_THAT(wrapped("abcdefgh ij", 5), ElementsAre("abcde", "fgh", "ij"));
+  EXPECT_THAT(wrapped("", 5), ElementsAre(""));
+}
+
 }  // namespace
 }  // namespace nlcwfs

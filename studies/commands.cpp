@@ -1,0 +1,172 @@
+#include "studies/commands.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace nlcwfs {
+namespace {
+
+using Keys = std::vector<std::string>;
+
+/// What every command that knows a telescope reads.
+const Keys site{"telescope", "seeing"};
+/// What a simulation of one design takes besides.
+const Keys simulation{"source", "screens", "sensor", "detector", "reconstruction", "simulation"};
+/// What judges a design.
+const Keys judgement{"objective"};
+/// What a search takes besides.
+const Keys search{"search", "baseline", "verify"};
+
+Keys joined(std::initializer_list<Keys> lists) {
+  Keys all;
+  for (const Keys& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+constexpr const char* one_design = "One design";
+constexpr const char* best_designs = "The best design";
+constexpr const char* laws = "Laws and scaling";
+constexpr const char* others = "The paper and this machine";
+
+}  // namespace
+
+bool Command::reads(std::string_view key) const {
+  return std::ranges::any_of(keys, [&](std::string_view wanted) {
+    return key == wanted || (key.starts_with(wanted) && key.substr(wanted.size()).starts_with('.'));
+  });
+}
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> known{
+      {.name = "evaluate",
+       .group = one_design,
+       .description = "measure one design: wavefront error, loops and time with standard errors",
+       .about = "Simulates the sensor of the sections sensor, detector and reconstruction on the "
+                "wavefronts of the section screens, and says how well and how fast it recovers "
+                "them. Every metric of every wavefront is in screens.csv.",
+       .keys = joined({site, simulation, judgement}),
+       .examples = {"nlcwfs evaluate --telescope.diameter 1.8 --seeing.fried_parameter 24cm",
+                    "nlcwfs evaluate --config results/optimize-1/best.cfg --screens.count 256"}},
+      {.name = "convergence",
+       .group = one_design,
+       .description = "follow one design's residual wavefront error from loop to loop",
+       .about = "Runs all of reconstruction.max_loops on each wavefront, whatever the tolerance, "
+                "and gives the residual wavefront error after each loop as a table and a picture.",
+       .keys = joined({site, simulation, judgement}),
+       .examples = {"nlcwfs convergence --source.bands 400nm:800nm --source.division split"}},
+      {.name = "response",
+       .group = one_design,
+       .description =
+           "measure how much of single spatial frequencies a design recovers, beside prediction",
+       .about = "Puts sinusoidal wavefronts before the sensor, one frequency at a time, and "
+                "measures the recovered share; with response.distances also that of pairs of "
+                "planes at these distances, as maps. Beside it stand the contrast and the photon "
+                "noise that theory lets expect.",
+       .keys = joined({site, simulation, judgement, {"response"}}),
+       .examples =
+           {"nlcwfs response --response.distances 1km:200km:20:log --detector.photons 1e7"}},
+      {.name = "screens",
+       .group = one_design,
+       .description = "make phase screens: a FITS cube and its statistics",
+       .about =
+           "Writes the wavefronts that the other commands use as screens.fits, and holds their "
+           "variances and structure function against theory.",
+       .keys = joined({site, {"source", "screens", "detector", "simulation"}}),
+       .examples = {"nlcwfs screens --screens.count 100 --seeing.outer_scale 25"}},
+      {.name = "sweep",
+       .group = best_designs,
+       .description = "try every design of a grid: maps of all figures, and the best, verified",
+       .about = "Tries all designs of the axes of the section sweep, maps every metric over them, "
+                "and verifies the best few on fresh screens. It is what a search is checked "
+                "against. An interrupted sweep goes on with --resume.",
+       .keys = joined({site, simulation, judgement, {"sweep", "verify", "search.precision"}}),
+       .examples = {"nlcwfs sweep --sweep.z_near 5km:100km:24:log --sweep.z_far 50km:235km:24:log",
+                    "nlcwfs sweep --resume results/sweep-1"},
+       .resumable = true},
+      {.name = "optimize",
+       .group = best_designs,
+       .description = "find a telescope's best design and verify it on fresh screens",
+       .about =
+           "Searches what the section search lets vary for the lowest cost of the section "
+           "objective, verifies the best few designs on fresh screens beside the baseline, and "
+           "tells how far each variable may move. best.cfg holds the winner.",
+       .keys = joined({site, simulation, judgement, search}),
+       .examples =
+           {"nlcwfs optimize --telescope.diameter 1.8 --telescope.wavelength 850nm "
+            "--seeing.fried_parameter 24cm",
+            "nlcwfs optimize --search.layout free --search.plane_count 3,4 --detector.photons "
+            "1e5"}},
+      {.name = "compare",
+       .group = best_designs,
+       .description =
+           "hold a search against a sweep: both best designs on fresh screens, and what each cost",
+       .about =
+           "Takes the folders of a sweep and of a search for the same telescope, simulates the "
+           "best design of each on screens that neither has seen, and gives the paired "
+           "difference of their costs.",
+       .keys = {},
+       .examples = {"nlcwfs compare results/sweep-1 results/optimize-1"},
+       .arguments = {"SWEEP", "OPTIMIZE"}},
+      {.name = "trade",
+       .group = best_designs,
+       .description = "try several objectives at once: the front of the best compromises, verified",
+       .about =
+           "Searches designs that no other betters in all of trade.objectives, over numbers of "
+           "planes and pixels, and verifies the front on fresh screens. front.csv has the "
+           "front, knee.cfg its knee.",
+       .keys = joined({site, simulation, judgement, search, {"trade"}}),
+       .examples = {"nlcwfs trade --trade.objectives total_wfe_nm,model_seconds,plane_count"}},
+      {.name = "law",
+       .group = laws,
+       .description = "fit the scaling law that advise follows to the best designs at several D/r0",
+       .about = "Searches the best symmetric design at each of law.d_over_r0 and fits lines to the "
+                "planes and what they reach. Its law.json can be the advise.law of another day.",
+       .keys = joined({{"telescope"}, simulation, judgement, search, {"law"}}),
+       .examples = {"nlcwfs law --law.d_over_r0 3,4,6,8"}},
+      {.name = "advise",
+       .group = laws,
+       .description = "tell a telescope's planes from the scaling law; --verify simulates them",
+       .about =
+           "Gives the planes of a telescope at once, with the error and the loops that the law "
+           "predicts; with --verify they are simulated on fresh screens too.",
+       .keys = joined({site, simulation, judgement, {"advise", "verify"}}),
+       .examples = {"nlcwfs advise --telescope.diameter 8.2 --seeing.fried_parameter 1m --verify"}},
+      {.name = "scale",
+       .group = laws,
+       .description = "move a design to another telescope or bench at equal Fresnel numbers",
+       .about = "Moves the configured planes to the telescope of the section scale, where they see "
+                "the same diffraction, and writes the moved design as scaled.cfg.",
+       .keys = joined({site, {"sensor", "source", "detector", "reconstruction", "scale"}}),
+       .examples = {"nlcwfs scale --config results/optimize-1/best.cfg --scale.diameter 8.2 "
+                    "--scale.relay_beam_diameter 10mm"}},
+      {.name = "reproduce",
+       .group = others,
+       .description =
+           "run every study of Letchev et al. 2022 and hold its claims against the results",
+       .about = "Runs the paper's figures in its own set-up and with an extended truth, and judges "
+                "its claims one by one. It takes about an hour; --figure N runs a part, and an "
+                "interrupted run goes on with --resume.",
+       .keys = {"screens.count", "screens.seed", "reproduce"},
+       .examples = {"nlcwfs reproduce --figure 8 --screens.count 4"},
+       .resumable = true},
+      {.name = "benchmark",
+       .group = others,
+       .description = "time a configuration on this machine; writes files only with --output",
+       .about = "Takes about five seconds and says what loops, designs and a whole search of the "
+                "configuration cost on this machine.",
+       .keys = joined({site, simulation, judgement, search}),
+       .examples = {"nlcwfs benchmark --detector.pupil_pixels 128 --threads 8"}}};
+  return known;
+}
+
+const Command& command_of(std::string_view name) {
+  return *std::ranges::find(commands(), name, &Command::name);
+}
+
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) names.push_back(command.name);
+  return names;
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nlcwfs {
+
+/// One of the program's commands: a row of the table that the command line, the help, the manual
+/// page and the shells' completion are made from.
+struct Command {
+  std::string name;         ///< as it is typed
+  std::string group;        ///< of commands that belong together; rows of a group are neighbours
+  std::string description;  ///< one line
+  std::string about;        ///< two or three sentences on what it does and leaves behind
+  /// What it reads of the configuration: sections, such as "telescope", or single keys, such as
+  /// "screens.seed".
+  std::vector<std::string> keys;
+  std::vector<std::string> examples;  ///< whole command lines
+  bool resumable = false;             ///< takes --resume
+  /// Names of what must follow the command, such as folders; mostly none.
+  std::vector<std::string> arguments = {};
+
+  /// Whether the command reads a key of the configuration.
+  bool reads(std::string_view key) const;
+};
+
+/// Every command, in the order of the help.
+const std::vector<Command>& commands();
+
+/// @pre there is such a command
+const Command& command_of(std::string_view name);
+
+std::vector<std::string> command_names();
+
+}  // namespace nlcwfs

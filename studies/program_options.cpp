@@ -1,0 +1,78 @@
+#include "studies/program_options.hpp"
+
+#include "studies/configuration.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+std::string preset_names() {
+  std::vector<std::string> texts;
+  for (const Preset& preset : presets()) {
+    texts.push_back(fmt::format("{} ({})", preset.name, preset.description));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+bool is_of_all(const Command& /*command*/) { return true; }
+
+}  // namespace
+
+const std::vector<ProgramOption>& program_options() {
+  static const std::vector<ProgramOption> options{
+      {"config", "FILE", "read a configuration file; of several, the later wins", is_of_all},
+      {"preset", "NAME", "start from a named set of values: " + preset_names(), is_of_all},
+      {"output", "DIR", "write the results there [results/<command>-<n>]", is_of_all},
+      {"resume", "DIR", "go on with the interrupted run in this folder, as it is configured",
+       [](const Command& command) { return command.resumable; }},
+      {"figure", "N",
+       "run only this figure of the paper, or another part that reproduce.figures knows; may be "
+       "given several times",
+       [](const Command& command) { return command.name == "reproduce"; }},
+      {"verify", "", "simulate the design on fresh screens, as the section verify says",
+       [](const Command& command) { return command.name == "advise"; }},
+      {"threads", "N", "use this many cores, 0 = all [0]", is_of_all},
+      {"quiet", "", "print no progress", is_of_all},
+      {"dump-config", "", "print every key with its value as a configuration file, and stop",
+       is_of_all},
+      {"help", "", "print this text, and stop", is_of_all},
+      {"version", "", "print the version, and stop", is_of_all}};
+  return options;
+}
+
+std::string value_name(const ConfigurationKey& key) {
+  switch (key.kind) {
+    case Kind::number:
+    case Kind::ramp:
+      return "NUMBER";
+    case Kind::number_list:
+      return "NUMBERS";
+    case Kind::integer:
+      return "INTEGER";
+    case Kind::seed:
+      return "SEED";
+    case Kind::length:
+      return "LENGTH";
+    case Kind::length_list:
+      return "LENGTHS";
+    case Kind::bands:
+      return "BANDS";
+    case Kind::domain:
+      return "MIN:MAX";
+    case Kind::axis:
+      return "MIN:MAX:N";
+    case Kind::orders:
+      return "ORDERS";
+    case Kind::time:
+      return "TIME";
+    case Kind::choice:
+      return "WORD";
+    case Kind::text:
+      return "TEXT";
+  }
+  return "TEXT";
+}
+
+}  // namespace nlcwfs
