@@ -27,6 +27,7 @@ constexpr const char* one_design = "One design";
 constexpr const char* best_designs = "The best design";
 constexpr const char* laws = "Laws and scaling";
 constexpr const char* others = "The paper and this machine";
+constexpr const char* files = "Files of a run";
 
 }  // namespace
 
@@ -155,7 +156,17 @@ const std::vector<Command>& commands() {
        .about = "Takes about five seconds and says what loops, designs and a whole search of the "
                 "configuration cost on this machine.",
        .keys = joined({site, simulation, judgement, search}),
-       .examples = {"nlcwfs benchmark --detector.pupil_pixels 128 --threads 8"}}};
+       .examples = {"nlcwfs benchmark --detector.pupil_pixels 128 --threads 8"}},
+      {.name = "export",
+       .group = files,
+       .description = "write a run's archive as flat tables: CSV, JSON, FITS",
+       .about =
+           "Takes the folder of a run, or its archive.sqlite, and writes a row for every design "
+           "that was evaluated, with its planes, its properties and every metric with its "
+           "standard error.",
+       .keys = {"export"},
+       .examples = {"nlcwfs export results/optimize-1 --export.formats csv,fits"},
+       .arguments = {"RUN"}}};
   return known;
 }
 

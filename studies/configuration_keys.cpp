@@ -623,6 +623,11 @@ std::vector<ConfigurationKey> make_keys() {
        .description = "Seeings at which law searches designs, to fit the scaling law to them.",
        .bounds = {.least = 0, .greatest = 1e4, .least_included = false}},
 
+      {.name = "export.formats",
+       .kind = Kind::text,
+       .default_text = "csv,json,fits",
+       .description = "What export writes: comma-separated values, JSON, a FITS binary table."},
+
       {.name = "reproduce.figures",
        .kind = Kind::text,
        .default_text = "3,4,5,6,7,8,scaling,response,numerics",

@@ -45,6 +45,9 @@ void run_reproduce(const CommandLine& command_line);
 /// one: its figures are of the moment.
 void run_benchmark(const CommandLine& command_line);
 
+/// A run's archive as flat tables.
+void run_export(const CommandLine& command_line);
+
 /// The scaling law of the best designs at several seeings.
 void run_law(const CommandLine& command_line);
 
