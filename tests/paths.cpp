@@ -2,6 +2,8 @@
 
 namespace nlcwfs {
 
+std::filesystem::path source_folder() { return NLCWFS_SOURCE_DIR; }
+
 std::string test_reference_folder() { return NLCWFS_SOURCE_DIR "/tests/reference"; }
 
 std::string reference_run_folder() { return NLCWFS_SOURCE_DIR "/results/reference/letchev-2022"; }
