@@ -27,7 +27,7 @@ struct ScreenPerformance {
 
 /// What a design saw of one wavefront and made of it.
 struct ScreenRecord {
-  ScreenPerformance performance;
+  ScreenPerformance performance;      ///< as of an evaluation, with the residual after each loop
   std::vector<Image<double>> images;  ///< what the detectors gave, noise included: one per plane in
                                       ///< visiting order, in units of the unaberrated pupil's
                                       ///< intensity

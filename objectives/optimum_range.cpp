@@ -3,6 +3,8 @@
 #include "objectives/design_comparison.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -15,28 +17,60 @@ constexpr int halvings = 2;
 class Scan {
  public:
   Scan(const DesignSpace& space, const DesignTrial& trial, const SearchPoint& best)
-      : space_(space), trial_(trial), best_(best), reference_(trial.run(space.design(best))) {}
+      : space_(space),
+        trial_(trial),
+        best_(best),
+        variables_(space.sub_spaces()[static_cast<std::size_t>(best.sub_space)].variables),
+        reference_(trial.run(space.design(best))) {}
 
   int designs() const { return designs_; }
+
+  OptimumRange range(std::size_t variable) {
+    const Variable& limits = variables_[variable];
+    const double best = value_of(variable, best_.x[Eigen::Index(variable)]);
+    values_ = {{.value = best, .cost_difference = {}, .is_worse = false}};
+    const double lower = end(variable, limits.lower);
+    const double upper = end(variable, limits.upper);
+    std::ranges::sort(values_, {}, &ScannedValue::value);
+    return {.name = space_.name(best_.sub_space, variable),
+            .best = best,
+            .least = value_of(variable, lower),
+            .greatest = value_of(variable, upper),
+            .least_is_bound = lower == limits.lower,
+            .greatest_is_bound = upper == limits.upper,
+            .values = values_};
+  }
+
+  const std::vector<Variable>& variables() const { return variables_; }
+
+ private:
+  double value_of(std::size_t variable, double x) const {
+    return space_.value(best_.sub_space, variable, x);
+  }
 
   bool is_worse(std::size_t variable, double x) {
     SearchPoint point = best_;
     point.x[Eigen::Index(variable)] = x;
     ++designs_;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    ScannedValue scanned{
+        .value = value_of(variable, x), .cost_difference = {nan, nan}, .is_worse = true};
     try {
       const TriedDesign tried = trial_.run(space_.design(point));
-      return tried.violation > reference_.violation ||
-             improvement(tried, reference_).verdict == Verdict::worse;
+      const Improvement change = improvement(tried, reference_);
+      scanned.cost_difference = {-change.cost.mean, change.cost.standard_error};
+      scanned.is_worse = tried.violation > reference_.violation || change.verdict == Verdict::worse;
     } catch (const std::exception&) {
-      return true;  // no design at all
+      // No design at all.
     }
+    values_.push_back(scanned);
+    return scanned.is_worse;
   }
 
   /// The farthest value on one side that is as good.
   double end(std::size_t variable, double bound) {
     const double centre = best_.x[Eigen::Index(variable)];
-    const Variable& limits =
-        space_.sub_spaces()[static_cast<std::size_t>(best_.sub_space)].variables[variable];
+    const Variable& limits = variables_[variable];
     const double whole = std::abs(bound - centre);
     const double direction = bound > centre ? 1.0 : -1.0;
     double good = 0.0;
@@ -52,11 +86,12 @@ class Scan {
     return good == whole ? bound : centre + direction * good;
   }
 
- private:
   const DesignSpace& space_;
   const DesignTrial& trial_;
   const SearchPoint& best_;
+  std::vector<Variable> variables_;
   TriedDesign reference_;
+  std::vector<ScannedValue> values_;  ///< of the variable that is being scanned
   int designs_ = 1;
 };
 
@@ -66,19 +101,9 @@ OptimumScan optimum_ranges(const DesignSpace& space, const DesignTrial& trial,
                            const SearchPoint& best, const std::function<bool()>& stop) {
   if (stop()) return {};
   Scan scan(space, trial, best);
-  const std::vector<Variable> variables =
-      space.sub_spaces()[static_cast<std::size_t>(best.sub_space)].variables;
   std::vector<OptimumRange> ranges;
-  for (std::size_t i = 0; i < variables.size() && !stop(); ++i) {
-    if (!variables[i].is_continuous()) continue;
-    const double lower = scan.end(i, variables[i].lower);
-    const double upper = scan.end(i, variables[i].upper);
-    ranges.push_back({.name = space.name(best.sub_space, i),
-                      .best = space.value(best.sub_space, i, best.x[Eigen::Index(i)]),
-                      .least = space.value(best.sub_space, i, lower),
-                      .greatest = space.value(best.sub_space, i, upper),
-                      .least_is_bound = lower == variables[i].lower,
-                      .greatest_is_bound = upper == variables[i].upper});
+  for (std::size_t i = 0; i < scan.variables().size() && !stop(); ++i) {
+    if (scan.variables()[i].is_continuous()) ranges.push_back(scan.range(i));
   }
   return {std::move(ranges), scan.designs()};
 }

@@ -3,6 +3,7 @@
 #include "objectives/design_space.hpp"
 #include "results/json_numbers.hpp"
 #include "results/map_picture.hpp"
+#include "studies/axis_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,25 +21,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// A name of a summary for people, with its unit behind a comma: "total wfe, nm".
-std::string label_of(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> labels{
-      {{"residual_wfe_nm", "residual WFE, nm"},
-       {"fractional_loops", "fractional loops"},
-       {"z_near", "distance of the near pair"},
-       {"z_far", "distance of the far pair"},
-       {"z_third", "distance of the third pair"},
-       {"order", "visiting order"},
-       {"detector_window", "detector window, pupil diameters"},
-       {"reconstruction_window", "reconstruction window, pupil diameters"}}};
-  const auto* const known = std::ranges::find(labels, name, &decltype(labels)::value_type::first);
-  if (known != labels.end()) return std::string(known->second);
-  if (name.size() == 2 && name[0] == 'z') return fmt::format("distance of plane {}", name[1]);
-  std::string label(name);
-  std::ranges::replace(label, '_', ' ');
-  return label;
-}
 
 /// An axis of the grid as it is drawn.
 struct GridPictureAxis {
@@ -63,16 +45,9 @@ GridPictureAxis::GridPictureAxis(const Json& axis) : name(axis.at("name")) {
       drawn.values.push_back(value);
     }
   }
-  if (axis.at("unit") != "m") return;
-  double greatest = 0.0;
-  for (const double value : drawn.values) greatest = std::max(greatest, std::abs(value));
-  constexpr std::array<std::pair<double, std::string_view>, 4> units{
-      {{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-9, "nm"}}};
-  const auto* const chosen = std::ranges::find_if(
-      units, [&](const auto& candidate) { return greatest >= candidate.first; });
-  const auto& [size, word] = chosen == units.end() ? units.back() : *chosen;
-  unit = size;
-  drawn.label += fmt::format(", {}", word);
+  const AxisUnit shown = axis_unit_of(axis.at("unit").get<std::string>(), drawn.values);
+  unit = shown.size;
+  drawn.label += shown.suffix();
   for (double& value : drawn.values) value /= unit;
 }
 

@@ -8,6 +8,7 @@
 #include "results/archive.hpp"
 #include "results/csv_table.hpp"
 #include "studies/progress_line.hpp"
+#include "studies/search_pictures.hpp"
 
 #include <chrono>
 #include <string>
@@ -33,6 +34,7 @@ class SearchLog {
   int given_up() const { return given_up_; }
   /// The designs in the order in which they were tried.
   std::string table() const { return table_.text(); }
+  const std::vector<SearchStep>& steps() const { return steps_; }
 
  private:
   void show_progress(const EvaluationRecord& evaluation);
@@ -47,6 +49,7 @@ class SearchLog {
   ProgressLine progress_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   CsvTable table_;
+  std::vector<SearchStep> steps_;
   long reconstructions_ = 0;
   int given_up_ = 0;
 };

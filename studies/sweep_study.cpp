@@ -3,6 +3,7 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/json_numbers.hpp"
+#include "studies/closer_look.hpp"
 #include "studies/design_text.hpp"
 #include "studies/grid_picture.hpp"
 #include "studies/interrupt.hpp"
@@ -470,22 +471,28 @@ void run_sweep(const CommandLine& command_line) {
   const auto failures = static_cast<int>(std::ranges::count_if(
       sweep.outcomes(), [](const auto& outcome) { return !outcome->failure.empty(); }));
   const auto evaluations = static_cast<int>(sweep.designs().size());
-  record.write_summary(
-      {{"best", to_json(best, task.verification)},
-       {"best_on_search_screens", to_json(on_search_screens, task.trial)},
-       {"ranking", to_json(ranking, task.verification)},
-       {"grid", grid},
-       {"points", task.grid.size()},
-       {"evaluations", evaluations},
-       {"failures", failures},
-       {"search_reconstructions", std::int64_t(evaluations - failures) * task.trial.screen_count() *
-                                      static_cast<std::int64_t>(task.trial.conditions().size())},
-       {"reconstructions",
-        (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
-         static_cast<std::int64_t>(ranking.size()) * task.verification.screen_count()) *
-            static_cast<std::int64_t>(task.trial.conditions().size())},
-       {"wall_seconds", seconds_before + stopwatch.seconds()},
-       {"search_seconds", sweep.elapsed()}});
+  Json summary{
+      {"best", to_json(best, task.verification)},
+      {"best_on_search_screens", to_json(on_search_screens, task.trial)},
+      {"ranking", to_json(ranking, task.verification)},
+      {"grid", grid},
+      {"points", task.grid.size()},
+      {"evaluations", evaluations},
+      {"failures", failures},
+      {"search_reconstructions", std::int64_t(evaluations - failures) * task.trial.screen_count() *
+                                     static_cast<std::int64_t>(task.trial.conditions().size())},
+      {"reconstructions",
+       (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
+        static_cast<std::int64_t>(ranking.size()) * task.verification.screen_count()) *
+           static_cast<std::int64_t>(task.trial.conditions().size())},
+      {"wall_seconds", seconds_before + stopwatch.seconds()},
+      {"search_seconds", sweep.elapsed()}};
+  if (!command_line.silent) {
+    const CloserLook look = look_closer(task.verification, best, record.folder());
+    summary["closer_look"] = look.summary;
+    std::ranges::copy(look.notes, std::back_inserter(notes));
+  }
+  record.write_summary(summary);
 
   const Performance performance = pooled(best.performances);
   const Performance search_performance = pooled(on_search_screens.performances);
