@@ -1,6 +1,7 @@
 #include "studies/grid_picture.hpp"
 
 #include "objectives/design_space.hpp"
+#include "results/fits_cube.hpp"
 #include "results/json_numbers.hpp"
 #include "results/map_picture.hpp"
 #include "studies/axis_text.hpp"
@@ -12,6 +13,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <boost/algorithm/string/case_conv.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -31,6 +33,8 @@ struct GridPictureAxis {
   double place_of(const SensorDesign& design, const std::vector<std::string>& orders) const;
 
   std::string name;
+  std::string si_unit;
+  std::vector<double> si_values;  ///< those of words are their numbers
   PictureAxis drawn;
   double unit = 1.0;  ///< of what is drawn, SI
 };
@@ -45,7 +49,9 @@ GridPictureAxis::GridPictureAxis(const Json& axis) : name(axis.at("name")) {
       drawn.values.push_back(value);
     }
   }
-  const AxisUnit shown = axis_unit_of(axis.at("unit").get<std::string>(), drawn.values);
+  si_unit = axis.at("unit");
+  si_values = drawn.values;
+  const AxisUnit shown = axis_unit_of(si_unit, si_values);
   unit = shown.size;
   drawn.label += shown.suffix();
   for (double& value : drawn.values) value /= unit;
@@ -152,6 +158,28 @@ std::vector<double> DrawnGrid::values_of(const Json& matrix) const {
 }
 
 }  // namespace
+
+void write_grid_map(const Json& grid, const std::string& figure, const std::string& unit,
+                    const std::filesystem::path& path) {
+  const DrawnGrid drawn(grid);
+  if (drawn.axes().size() != 2) return;
+  const auto axis_of = [](const GridPictureAxis& axis) {
+    return FitsMapAxis{.name = boost::algorithm::to_upper_copy(axis.name),
+                       .unit = axis.si_unit,
+                       .values = axis.si_values,
+                       .words = axis.drawn.words,
+                       .description = label_of(axis.name)};
+  };
+  FitsMap map{
+      .unit = unit, .x = axis_of(drawn.axes()[0]), .y = axis_of(drawn.axes()[1]), .values = {}};
+  const std::vector<double> values = drawn.values_of(grid.at(figure));
+  // They have the second axis running fastest.
+  map.values = Eigen::Map<const Image<double>>(values.data(), Eigen::Index(map.x.values.size()),
+                                               Eigen::Index(map.y.values.size()))
+                   .transpose();
+  std::filesystem::remove(path);  // of a run that was interrupted
+  write_fits_map(path, map);
+}
 
 std::optional<std::string> write_grid_picture(const std::string& title, const Json& grid,
                                               const std::string& figure, const CostedDesign& best,

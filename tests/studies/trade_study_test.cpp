@@ -18,6 +18,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
+using testing::UnorderedElementsAreArray;
 using Json = nlohmann::json;
 
 const std::vector<std::string> default_objectives{"total_wfe_nm", "model_seconds",
@@ -51,7 +52,7 @@ class TradeStudy : public Program {
 
 TEST_F(TradeStudy, LeavesItsFiles) {
   const ProgramRun finished = traded("run");
-  EXPECT_THAT(names_in("run"), testing::UnorderedElementsAreArray(with_closer_look(
+  EXPECT_THAT(names_in("run"), UnorderedElementsAreArray(with_closer_look(
                                    {"archive.sqlite", "config.cfg", "front.csv", "front.png",
                                     "front.svg", "knee.cfg", "search.csv", "summary.json"})));
   EXPECT_THAT(finished.output,
