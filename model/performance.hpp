@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/array.hpp"
 #include "model/statistics.hpp"
 #include "model/wavefront_metrics.hpp"
 
@@ -20,8 +21,20 @@ struct ScreenPerformance {
   double seconds = 0.0;           ///< measured time of the reconstruction
   double data_seconds = 0.0;      ///< measured time to make the images, 0 for kept ones
   std::vector<double> captured_energy;  ///< share of the pupil's light in the window, per plane
-  /// Residual WFE after each loop, m; only of Simulation::follow().
+  /// Residual WFE after each loop, m; only of Simulation::follow() and record().
   std::vector<double> residual_after_loops = {};
+};
+
+/// What a design saw of one wavefront and made of it.
+struct ScreenRecord {
+  ScreenPerformance performance;      ///< as of an evaluation, with the residual after each loop
+  std::vector<Image<double>> images;  ///< what the detectors gave, noise included: one per plane in
+                                      ///< visiting order, in units of the unaberrated pupil's
+                                      ///< intensity
+  // n x n reconstruction samples across the diameter, rad, piston removed, NaN outside the pupil:
+  Image<double> true_phase;           ///< averaged onto these samples
+  Image<double> reconstructed_phase;  ///< unwrapped
+  Image<double> residual_phase;       ///< reconstructed minus true; its RMS is the residual WFE
 };
 
 /// How a design did on a set of wavefronts.

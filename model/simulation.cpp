@@ -12,6 +12,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -56,11 +57,13 @@ class Experiment {
                options.source),
         reconstructor_(telescope, design) {}
 
-  ScreenPerformance run(const PhaseScreen& truth, std::size_t screen, bool follows_loops) const {
+  /// @param record  gets all but the performance, where there is one
+  ScreenPerformance run(const PhaseScreen& truth, std::size_t screen, bool follows_loops,
+                        ScreenRecord* record = nullptr) const {
     using Clock = std::chrono::steady_clock;
     const auto data_start = Clock::now();
     const std::vector<ImageCache::SharedImage> light = noise_free_images(truth, screen);
-    const std::vector<Image<double>> images = detector_images(light, screen);
+    std::vector<Image<double>> images = detector_images(light, screen);
 
     const auto start = Clock::now();
     ScreenPerformance result;
@@ -83,10 +86,22 @@ class Experiment {
     for (const ImageCache::SharedImage& image : light) {
       result.captured_energy.push_back(image->sum() / pupil_energy());
     }
+    if (record != nullptr) {
+      record->images = std::move(images);
+      record->true_phase = over_pupil(truth_on_samples(truth, phase.rows()));
+      record->reconstructed_phase = over_pupil(phase);
+      record->residual_phase = over_pupil(record->reconstructed_phase - record->true_phase);
+    }
     return result;
   }
 
  private:
+  /// Without piston, and with gaps outside the pupil.
+  Image<double> over_pupil(const Image<double>& phase) const {
+    const PupilMask& mask = reconstructor_.mask();
+    return mask.select(phase - piston(phase, mask), std::numeric_limits<double>::quiet_NaN());
+  }
+
   WavefrontMetrics measured(const Field<double>& pupil, const Image<double>& phase,
                             const PhaseScreen& truth) const {
     return measure_wavefront(pupil, phase, reconstructor_.mask(), truth, truth_mask_,
@@ -170,6 +185,24 @@ Performance run_screens(const Telescope& telescope, const SensorDesign& design,
       tbb::simple_partitioner());
   performance.screens.resize(next);
   return performance;
+}
+
+template <class Real>
+ScreenRecord record_screen(const Telescope& telescope, const SensorDesign& design,
+                           const SimulationOptions& options, const PupilMask& truth_mask,
+                           const std::vector<PhaseScreen>& screens, std::size_t screen,
+                           ImageCache& images) {
+  const Experiment<Real> experiment(telescope, design, options, truth_mask, images);
+  ScreenRecord record;
+  record.performance = experiment.run(screens[screen], screen, true, &record);
+  return record;
+}
+
+/// @throws std::runtime_error where its wavefront errors are none
+void require_numbers(const ScreenPerformance& screen) {
+  if (!std::isfinite(screen.wavefront.residual_wfe) || !std::isfinite(screen.wavefront.total_wfe)) {
+    throw std::runtime_error("the reconstruction ended in a wavefront that is not a number");
+  }
 }
 
 }  // namespace
@@ -271,6 +304,17 @@ Performance Simulation::follow(SensorDesign design, const ScreenWatch& watch) co
   return run(design, 0, screens_.size(), true, watch);
 }
 
+ScreenRecord Simulation::record(const SensorDesign& design, int screen) const {
+  assert(screen >= 0 && screen < screen_count());
+  const auto record_screen_of = options_.precision == Precision::double_precision
+                                    ? record_screen<double>
+                                    : record_screen<float>;
+  ScreenRecord record = record_screen_of(telescope_, checked(design), options_, mask_, screens_,
+                                         static_cast<std::size_t>(screen), images_);
+  require_numbers(record.performance);
+  return record;
+}
+
 std::vector<double> Simulation::aberrations() const {
   std::vector<double> aberrations;
   for (const PhaseScreen& screen : screens_) {
@@ -287,12 +331,7 @@ Performance Simulation::run(const SensorDesign& design, std::size_t first, std::
       options_.precision == Precision::double_precision ? run_screens<double> : run_screens<float>;
   Performance performance = run_screens_of(telescope_, valid, options_, mask_, screens_, first,
                                            count, follows_loops, watch, images_);
-  for (const ScreenPerformance& screen : performance.screens) {
-    if (!std::isfinite(screen.wavefront.residual_wfe) ||
-        !std::isfinite(screen.wavefront.total_wfe)) {
-      throw std::runtime_error("the reconstruction ended in a wavefront that is not a number");
-    }
-  }
+  for (const ScreenPerformance& screen : performance.screens) require_numbers(screen);
   return performance;
 }
 

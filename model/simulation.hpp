@@ -70,6 +70,11 @@ class Simulation {
   /// ScreenPerformance::residual_after_loops, which costs an unwrapping for each loop.
   Performance follow(SensorDesign design, const ScreenWatch& watch = {}) const;
 
+  /// One screen of evaluate() with all that the sensor saw and made, and with
+  /// ScreenPerformance::residual_after_loops. The rest of the performance, but for what a clock
+  /// measured, is the evaluation's to the last bit.
+  ScreenRecord record(const SensorDesign& design, int screen) const;
+
   /// See simulated_design.
   SensorDesign checked(SensorDesign design) const;
 

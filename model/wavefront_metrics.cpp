@@ -27,18 +27,15 @@ int last_within(double position, double half_width, int size) {
   return std::min(size - 1, static_cast<int>(std::floor(position + half_width)));
 }
 
-/// The truth as the reconstruction's samples see it.
-Image<double> truth_on_samples(const PhaseScreen& truth, Eigen::Index samples) {
-  return samples <= truth.rows() ? block_average(truth, truth.rows() / samples)
-                                 : repeat(truth, samples / truth.rows());
-}
-
 }  // namespace
 
+double piston(const Image<double>& phase, const PupilMask& mask) {
+  return mask.select(phase, 0.0).sum() / double(mask.count());
+}
+
 double piston_free_rms(const Image<double>& phase, const PupilMask& mask) {
-  const auto count = double(mask.count());
-  const double mean = mask.select(phase, 0.0).sum() / count;
-  return std::sqrt(mask.select((phase - mean).square(), 0.0).sum() / count);
+  const double mean = piston(phase, mask);
+  return std::sqrt(mask.select((phase - mean).square(), 0.0).sum() / double(mask.count()));
 }
 
 double wrapped_phase_rms(const Field<double>& field, const Field<double>& reference,
@@ -64,6 +61,11 @@ double recovered_share(const Image<double>& phase, const Image<double>& truth,
   const Image<double> centred = weight * (truth - (weight * truth).sum() / weight.sum());
   const double power = centred.square().sum();
   return power > 0.0 ? (centred * mask.select(phase, 0.0)).sum() / power : 0.0;
+}
+
+Image<double> truth_on_samples(const PhaseScreen& truth, Eigen::Index samples) {
+  return samples <= truth.rows() ? block_average(truth, truth.rows() / samples)
+                                 : repeat(truth, samples / truth.rows());
 }
 
 Image<double> resample_over_mask(const Image<double>& phase, const PupilMask& mask, int samples) {

@@ -15,7 +15,10 @@ struct WavefrontMetrics {
   double recovered_share = 0.0;  ///< see recovered_share()
 };
 
-/// RMS over the mask of `phase` (rad), mean removed.
+/// The mean of `phase` over the mask: its piston.
+double piston(const Image<double>& phase, const PupilMask& mask);
+
+/// RMS over the mask of `phase` (rad), piston removed.
 double piston_free_rms(const Image<double>& phase, const PupilMask& mask);
 
 /// RMS over the mask of arg(field conj(reference)) (rad), less the argument of that product's mean:
@@ -35,6 +38,11 @@ double field_estimated_strehl(const Field<double>& field, const Field<double>& t
 /// the truth is flat.
 double recovered_share(const Image<double>& phase, const Image<double>& truth,
                        const PupilMask& mask);
+
+/// The truth as the reconstruction's samples see it: averaged over blocks where these are coarser,
+/// repeated where they are finer.
+/// @param samples  wanted samples a side, a multiple or a divisor of the truth's
+Image<double> truth_on_samples(const PhaseScreen& truth, Eigen::Index samples);
 
 /// Brings a phase known over `mask` to another sampling of the same diameter: averaged over blocks
 /// where that is coarser, interpolated linearly between samples of the mask where it is finer.

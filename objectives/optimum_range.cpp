@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -25,19 +27,41 @@ class Scan {
         best_(best),
         report_(report),
         watch_(watch),
-        ends_(2 * space.sub_spaces()[static_cast<std::size_t>(best.sub_space)].continuous_count()) {
-  }
+        sub_space_(space.sub_spaces()[static_cast<std::size_t>(best.sub_space)]) {}
+
+  const SubSpace& sub_space() const { return sub_space_; }
 
   /// What the others are held against; before them.
   void try_best() { reference_ = tried(best_); }
 
   int designs() const { return designs_; }
 
+  /// @throws ScanEnded
+  OptimumRange range(std::size_t variable) {
+    const Variable& limits = sub_space_.variables[variable];
+    const double best = value_of(variable, best_.x[Eigen::Index(variable)]);
+    values_ = {{.value = best, .cost_difference = {}, .is_worse = false}};
+    const double lower = end(variable, limits.lower);
+    const double upper = end(variable, limits.upper);
+    std::ranges::sort(values_, {}, &ScannedValue::value);
+    return {.name = space_.name(best_.sub_space, variable),
+            .best = best,
+            .least = value_of(variable, lower),
+            .greatest = value_of(variable, upper),
+            .least_is_bound = lower == limits.lower,
+            .greatest_is_bound = upper == limits.upper,
+            .values = values_};
+  }
+
+ private:
+  double value_of(std::size_t variable, double x) const {
+    return space_.value(best_.sub_space, variable, x);
+  }
+
   /// The farthest value on one side that is as good.
   double end(std::size_t variable, double bound) {
     const double centre = best_.x[Eigen::Index(variable)];
-    const Variable& limits =
-        space_.sub_spaces()[static_cast<std::size_t>(best_.sub_space)].variables[variable];
+    const Variable& limits = sub_space_.variables[variable];
     const double whole = std::abs(bound - centre);
     const double direction = bound > centre ? 1.0 : -1.0;
     designs_of_end_ = 0;
@@ -55,17 +79,22 @@ class Scan {
     return good == whole ? bound : centre + direction * good;
   }
 
- private:
   bool is_worse(std::size_t variable, double x) {
     SearchPoint point = best_;
     point.x[Eigen::Index(variable)] = x;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    ScannedValue scanned{
+        .value = value_of(variable, x), .cost_difference = {nan, nan}, .is_worse = true};
     try {
       const TriedDesign moved = tried(point);
-      return moved.violation > reference_.violation ||
-             improvement(moved, reference_).verdict == Verdict::worse;
+      const Improvement change = improvement(moved, reference_);
+      scanned.cost_difference = {-change.cost.mean, change.cost.standard_error};
+      scanned.is_worse = moved.violation > reference_.violation || change.verdict == Verdict::worse;
     } catch (const std::exception&) {
-      return true;  // no design at all
+      // No design at all.
     }
+    values_.push_back(scanned);
+    return scanned.is_worse;
   }
 
   /// @throws ScanEnded
@@ -81,7 +110,8 @@ class Scan {
     // How far an end is, is not known before; most are nearer than the bound.
     constexpr double usual_designs_of_end = 8.0;
     const double share = std::min(1.0, ++designs_of_end_ / usual_designs_of_end);
-    if (report_) report_((ends_done_ + share) / ends_);
+    const int ends = 2 * sub_space_.continuous_count();
+    if (report_) report_((ends_done_ + share) / ends);
     return design;
   }
 
@@ -90,11 +120,12 @@ class Scan {
   const SearchPoint& best_;
   const std::function<void(double)>& report_;
   const ScreenWatch& watch_;
-  int ends_;
+  SubSpace sub_space_;
   int ends_done_ = 0;
   int designs_of_end_ = 0;
   int designs_ = 0;
   TriedDesign reference_;
+  std::vector<ScannedValue> values_;  ///< of the variable that is being scanned
 };
 
 }  // namespace
@@ -102,25 +133,16 @@ class Scan {
 OptimumScan optimum_ranges(const DesignSpace& space, const DesignTrial& trial,
                            const SearchPoint& best, const std::function<void(double)>& report,
                            const ScreenWatch& watch) {
-  const SubSpace sub_space = space.sub_spaces()[static_cast<std::size_t>(best.sub_space)];
-  if (sub_space.continuous_count() == 0) return {};
   Scan scan(space, trial, best, report, watch);
+  if (scan.sub_space().continuous_count() == 0) return {};
   std::vector<OptimumRange> ranges;
   try {
     scan.try_best();
-    for (std::size_t i = 0; i < sub_space.variables.size(); ++i) {
-      const Variable& variable = sub_space.variables[i];
-      if (!variable.is_continuous()) continue;
-      const double lower = scan.end(i, variable.lower);
-      const double upper = scan.end(i, variable.upper);
-      ranges.push_back({.name = space.name(best.sub_space, i),
-                        .best = space.value(best.sub_space, i, best.x[Eigen::Index(i)]),
-                        .least = space.value(best.sub_space, i, lower),
-                        .greatest = space.value(best.sub_space, i, upper),
-                        .least_is_bound = lower == variable.lower,
-                        .greatest_is_bound = upper == variable.upper});
+    for (std::size_t i = 0; i < scan.sub_space().variables.size(); ++i) {
+      if (scan.sub_space().variables[i].is_continuous()) ranges.push_back(scan.range(i));
     }
   } catch (const ScanEnded&) {
+    // With the variables that are done.
   }
   return {std::move(ranges), scan.designs()};
 }

@@ -9,6 +9,14 @@
 
 namespace nlcwfs {
 
+/// A value of one variable that was tried, the others held.
+struct ScannedValue {
+  double value;                  ///< SI
+  MeanAndError cost_difference;  ///< how much more than the best it costs, paired by screen; NaN
+                                 ///< where there is no such design
+  bool is_worse;                 ///< by Student's t test at 5 %, or of the limits
+};
+
 /// How far one variable of a design may move before the design is worse.
 struct OptimumRange {
   std::string name;        ///< of the property, without "log"
@@ -17,6 +25,7 @@ struct OptimumRange {
   double greatest;         ///< the highest
   bool least_is_bound;     ///< the whole way to the end of the search's range is as good
   bool greatest_is_bound;  ///< likewise at the other end
+  std::vector<ScannedValue> values;  ///< all that were tried, the best among them, ascending
 };
 
 /// What a scan found, and what it took.

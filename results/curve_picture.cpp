@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,22 +43,31 @@ std::string axis(std::string_view name, const std::vector<Curve>& curves,
   return fmt::format("set {}tics out nomirror\n", name);
 }
 
-}  // namespace
+/// What a picture's curves and axes are drawn with.
+struct DrawnCurves {
+  explicit DrawnCurves(const CurvePicture& picture);
 
-std::optional<std::string> write_picture(const CurvePicture& picture,
-                                         const std::filesystem::path& stem) {
-  std::string script =
-      fmt::format("set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
-                  gnuplot_text(picture.x_label), gnuplot_text(picture.y_label),
-                  axis("x", picture.curves, &Curve::x, picture.has_log_x),
-                  axis("y", picture.curves, &Curve::y, picture.has_log_y));
+  std::string settings;
   std::vector<std::string> plots;
   int labels = 0;
+};
+
+DrawnCurves::DrawnCurves(const CurvePicture& picture)
+    : settings(fmt::format("set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
+                           gnuplot_text(picture.x_label), gnuplot_text(picture.y_label),
+                           axis("x", picture.curves, &Curve::x, picture.has_log_x),
+                           axis("y", picture.curves, &Curve::y, picture.has_log_y))) {
+  if (picture.band) {
+    settings += fmt::format(
+        "set object 1 rectangle from first {},graph 0 to first {},graph 1 behind fillcolor rgb "
+        "'#dcebf5' fillstyle solid noborder\n",
+        picture.band->first, picture.band->second);
+  }
   for (std::size_t i = 0; i < picture.curves.size(); ++i) {
     const Curve& curve = picture.curves[i];
     if (!has_values(curve)) continue;
     const std::string name = fmt::format("curve{}", i);
-    script += data_block(name, rows_of(curve, picture.has_log_y));
+    settings += data_block(name, rows_of(curve, picture.has_log_y));
     const std::string_view colour =
         distinct_colours[static_cast<std::size_t>(curve.colour) % distinct_colours.size()];
     if (!curve.spread.empty()) {
@@ -65,14 +75,47 @@ std::optional<std::string> write_picture(const CurvePicture& picture,
           "${} using 1:2:3:4 with yerrorbars pointtype 7 pointsize 0.5 linecolor rgb '#{}' notitle",
           name, colour));
     }
-    plots.push_back(
-        fmt::format("${} using 1:2 with lines linewidth {} linecolor rgb '#{}{}' {}", name,
-                    curve.is_pale ? 1 : 2, curve.is_pale ? "90" : "00", colour,
-                    curve.label.empty() ? "notitle" : "title " + gnuplot_text(curve.label)));
+    const std::string style = curve.is_points ? "points pointtype 7 pointsize 0.7"
+                              : curve.is_pale ? "lines linewidth 1"
+                                              : "lines linewidth 2";
+    plots.push_back(fmt::format(
+        "${} using 1:2 with {} linecolor rgb '#{}{}' {}", name, style, curve.is_pale ? "90" : "00",
+        colour, curve.label.empty() ? "notitle" : "title " + gnuplot_text(curve.label)));
     labels += curve.label.empty() ? 0 : 1;
   }
-  if (plots.empty()) return "there is no value to draw";
-  return draw(script, {picture.title, labels > 0 ? 1 + (labels - 1) / 4 : 0, plots}, stem);
+}
+
+constexpr const char* nothing_to_draw = "there is no value to draw";
+
+}  // namespace
+
+std::optional<std::string> write_picture(const CurvePicture& picture,
+                                         const std::filesystem::path& stem) {
+  const DrawnCurves drawn(picture);
+  if (drawn.plots.empty()) return nothing_to_draw;
+  const int key_rows = drawn.labels > 0 ? 1 + (drawn.labels - 1) / 4 : 0;
+  return draw(drawn.settings, {picture.title, key_rows, drawn.plots}, stem);
+}
+
+std::optional<std::string> write_picture(const std::string& title,
+                                         const std::vector<CurvePicture>& pictures,
+                                         const std::filesystem::path& stem) {
+  std::vector<GnuplotPanel> panels;
+  for (const CurvePicture& picture : pictures) {
+    DrawnCurves drawn(picture);
+    if (drawn.plots.empty()) continue;
+    panels.push_back(
+        {fmt::format("set title {}\n", gnuplot_text(picture.title)) + std::move(drawn.settings),
+         std::move(drawn.plots)});
+  }
+  if (panels.empty()) return nothing_to_draw;
+  const std::size_t columns = std::min<std::size_t>(3, panels.size());
+  return draw(
+      {.title = title,
+       .columns = columns,
+       .room = {.width = 300, .height = 230, .left = 82, .right = 22, .below = 62, .above = 24},
+       .panels = std::move(panels)},
+      stem);
 }
 
 }  // namespace nlcwfs

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -51,26 +52,64 @@ void write_keyword(fitsfile* file, const FitsKeyword& keyword) {
   check_fits(status);
 }
 
-void write_image(fitsfile* file, const FitsCube& cube, const std::vector<FitsKeyword>& keywords) {
+/// @param shape   the lengths of the axes, axis 1 first
+/// @param slices  of the image, in the order of its pixels
+void write_image(fitsfile* file, std::vector<LONGLONG> shape, const std::string& unit,
+                 const std::vector<FitsKeyword>& keywords, std::span<const Image<double>> slices) {
   int status = 0;
-  const Eigen::Index rows = cube.slices.front().rows();
-  const Eigen::Index columns = cube.slices.front().cols();
-  std::array<LONGLONG, 3> shape{columns, rows, static_cast<LONGLONG>(cube.slices.size())};
-  fits_create_imgll(file, DOUBLE_IMG, 3, shape.data(), &status);
+  fits_create_imgll(file, DOUBLE_IMG, static_cast<int>(shape.size()), shape.data(), &status);
   check_fits(status);
-  write_keyword(file, {"BUNIT", cube.unit, "unit of the values"});
+  write_keyword(file, {"BUNIT", unit, "unit of the values"});
   for (const FitsKeyword& keyword : keywords) write_keyword(file, keyword);
 
-  std::array<LONGLONG, 3> first{1, 1, 1};
-  for (const Image<double>& slice : cube.slices) {
-    assert(slice.rows() == rows && slice.cols() == columns);
+  std::vector<LONGLONG> first(shape.size(), 1);
+  for (const Image<double>& slice : slices) {
+    assert(slice.size() == slices.front().size());
     // CFITSIO's interface takes the values as mutable, but only reads them.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     auto* const values = const_cast<double*>(slice.data());
     fits_write_pixll(file, TDOUBLE, first.data(), slice.size(), values, &status);
     check_fits(status);
-    ++first[2];
+    ++first.back();
   }
+}
+
+/// Whether neighbours are as far apart everywhere, so that a pixel's number tells its coordinate.
+bool is_even(const FitsMapAxis& axis) {
+  if (axis.values.size() < 2 || !axis.words.empty()) return false;
+  const double step = (axis.values.back() - axis.values.front()) / double(axis.values.size() - 1);
+  for (std::size_t i = 0; i < axis.values.size(); ++i) {
+    const double expected = axis.values.front() + double(i) * step;
+    if (std::abs(axis.values[i] - expected) > 1e-9 * std::abs(step)) return false;
+  }
+  return true;
+}
+
+/// The keywords of a map's axis.
+/// @param number  of the axis, from 1
+std::vector<FitsKeyword> keywords_of(const FitsMapAxis& axis, int number) {
+  std::vector<FitsKeyword> keywords;
+  if (is_even(axis)) {
+    const auto last = axis.values.size() - 1;
+    keywords = axis_keywords({{.name = axis.name,
+                               .unit = axis.unit,
+                               .reference_value = axis.values.front(),
+                               .step = (axis.values.back() - axis.values.front()) / double(last),
+                               .description = axis.description}},
+                             number);
+  }
+  keywords.push_back({fmt::format("AXIS{}", number), axis.name, "EXTNAME of this axis' values"});
+  return keywords;
+}
+
+void write_axis(fitsfile* file, const FitsMapAxis& axis) {
+  const Image<double> values =
+      Eigen::Map<const Image<double>>(axis.values.data(), 1, Eigen::Index(axis.values.size()));
+  std::vector<FitsKeyword> keywords{{"EXTNAME", axis.name, axis.description}};
+  for (std::size_t i = 0; i < axis.words.size(); ++i) {
+    keywords.push_back({fmt::format("WORD{}", i), axis.words[i], ""});
+  }
+  write_image(file, {values.size()}, axis.unit, keywords, {&values, 1});
 }
 
 }  // namespace
@@ -83,12 +122,13 @@ FitsAxis centred_axis(std::string name, Eigen::Index samples, double pitch) {
           .description = "from the middle"};
 }
 
-std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes) {
+std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes, int first) {
   std::vector<FitsKeyword> keywords;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const FitsAxis& axis = axes[i];
+    const std::size_t number = static_cast<std::size_t>(first) + i;
     const auto add = [&](const char* name, const auto& value, const std::string& comment) {
-      keywords.push_back({fmt::format("{}{}", name, i + 1), value, comment});
+      keywords.push_back({fmt::format("{}{}", name, number), value, comment});
     };
     add("CTYPE", axis.name, axis.description);
     add("CUNIT", axis.unit, "unit of this axis");
@@ -152,7 +192,24 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
 void write_fits_cube(const std::filesystem::path& path, const FitsCube& cube,
                      const std::vector<FitsKeyword>& keywords) {
   assert(!cube.slices.empty() && cube.slices.front().size() > 0);
-  write_new_fits_file(path, [&](fitsfile* file) { write_image(file, cube, keywords); });
+  const Image<double>& slice = cube.slices.front();
+  write_new_fits_file(path, [&](fitsfile* file) {
+    write_image(file, {slice.cols(), slice.rows(), static_cast<LONGLONG>(cube.slices.size())},
+                cube.unit, keywords, cube.slices);
+  });
+}
+
+void write_fits_map(const std::filesystem::path& path, const FitsMap& map) {
+  assert(map.values.cols() == Eigen::Index(map.x.values.size()));
+  assert(map.values.rows() == Eigen::Index(map.y.values.size()));
+  std::vector<FitsKeyword> keywords = keywords_of(map.x, 1);
+  const std::vector<FitsKeyword> of_y = keywords_of(map.y, 2);
+  keywords.insert(keywords.end(), of_y.begin(), of_y.end());
+  write_new_fits_file(path, [&](fitsfile* file) {
+    write_image(file, {map.values.cols(), map.values.rows()}, map.unit, keywords, {&map.values, 1});
+    write_axis(file, map.x);
+    write_axis(file, map.y);
+  });
 }
 
 }  // namespace nlcwfs

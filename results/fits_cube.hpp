@@ -40,8 +40,9 @@ struct FitsAxis {
 /// @param pitch  of its samples, m
 FitsAxis centred_axis(std::string name, Eigen::Index samples, double pitch);
 
-/// CTYPEn, CUNITn, CRPIXn, CRVALn and CDELTn of each axis; the first is n = 1.
-std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes);
+/// CTYPEn, CUNITn, CRPIXn, CRVALn and CDELTn of each axis.
+/// @param first  n of the first
+std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes, int first = 1);
 
 /// Whether samples may have no value, which is NaN.
 enum class FitsGaps { refused, allowed };
@@ -62,5 +63,30 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
 /// written
 void write_fits_cube(const std::filesystem::path& path, const FitsCube& cube,
                      const std::vector<FitsKeyword>& keywords = {});
+
+/// What stands along an axis of a map: quantities at any distances, or words.
+struct FitsMapAxis {
+  std::string name;                     ///< CTYPE, such as "Z_NEAR"
+  std::string unit;                     ///< CUNIT; empty for what has none
+  std::vector<double> values;           ///< of each pixel, in the unit; of words their numbers
+  std::vector<std::string> words = {};  ///< one for each pixel, where these are no quantities
+  std::string description = "";         ///< for people
+};
+
+/// A quantity over two others.
+struct FitsMap {
+  std::string unit;      ///< BUNIT; empty for what has none
+  FitsMapAxis x;         ///< axis 1
+  FitsMapAxis y;         ///< axis 2
+  Image<double> values;  ///< row = y, column = x; NaN where there is none
+};
+
+/// Writes a map as an image of x by y, with the coordinates of evenly spaced axes in its header.
+/// The values of each axis follow as an image of one dimension whose EXTNAME is the axis' name;
+/// words stand there as numbers from 0, which the keywords WORD0, WORD1, ... spell out. Otherwise
+/// as write_fits_cube().
+/// @throws std::runtime_error with the path and the cause where the file exists or cannot be
+/// written
+void write_fits_map(const std::filesystem::path& path, const FitsMap& map);
 
 }  // namespace nlcwfs

@@ -18,26 +18,33 @@
 namespace nlcwfs {
 namespace {
 
-/// The figure's outer parts, then the same plot in both formats.
-std::string plotting_script(const GnuplotFigure& figure, const std::filesystem::path& stem) {
-  std::string script = fmt::format(
-      "set title {} offset 0,0.4\nset border linewidth 0.8\n{}\n", gnuplot_text(figure.title),
-      figure.key_rows > 0
-          ? fmt::format("set key below center horizontal Left reverse maxrows {} samplen 1 width 1 "
-                        "height 1.4 font ',13'",
-                        figure.key_rows)
-          : "unset key");
-  const auto output = [&](std::string_view terminal, const char* extension) {
-    script +=
-        fmt::format("set terminal {}\nset output {}\nplot {}\nunset output\n", terminal,
-                    gnuplot_text(stem.string() + extension), fmt::join(figure.plots, ", \\\n  "));
+/// How large a picture is, in pixels of the SVG.
+struct PictureSize {
+  int width = 760;
+  int height = 600;
+  int font = 15;
+};
+
+/// The same commands in both formats.
+std::string in_both_formats(const std::string& commands, const PictureSize& size,
+                            const std::filesystem::path& stem) {
+  std::string script;
+  const auto output = [&](const std::string& terminal, const char* extension) {
+    script += fmt::format("set terminal {}\nset output {}\n{}\nunset output\n", terminal,
+                          gnuplot_text(stem.string() + extension), commands);
   };
-  output("svg size 760,600 dynamic noenhanced font 'sans-serif,15' background 'white'", ".svg");
-  output(
-      "pngcairo size 1140,900 noenhanced font 'Sans,16' fontscale 1.1 linewidth 1.5 "
-      "pointscale 1.5 background 'white'",
-      ".png");
+  output(fmt::format("svg size {},{} dynamic noenhanced font 'sans-serif,{}' background 'white'",
+                     size.width, size.height, size.font),
+         ".svg");
+  output(fmt::format("pngcairo size {},{} noenhanced font 'Sans,{}' fontscale 1.1 linewidth 1.5 "
+                     "pointscale 1.5 background 'white'",
+                     size.width * 3 / 2, size.height * 3 / 2, size.font + 1),
+         ".png");
   return script;
+}
+
+std::string plot_command(const std::vector<std::string>& plots) {
+  return fmt::format("plot {}", fmt::join(plots, ", \\\n  "));
 }
 
 /// Runs gnuplot on a script.
@@ -127,7 +134,46 @@ std::string number_text(double value) {
 
 std::optional<std::string> draw(const std::string& script, const GnuplotFigure& figure,
                                 const std::filesystem::path& stem) {
-  return run_gnuplot("set encoding utf8\n" + script + plotting_script(figure, stem), stem);
+  const std::string outer_parts = fmt::format(
+      "set title {} offset 0,0.4\nset border linewidth 0.8\n{}\n", gnuplot_text(figure.title),
+      figure.key_rows > 0
+          ? fmt::format("set key below center horizontal Left reverse maxrows {} samplen 1 width 1 "
+                        "height 1.4 font ',13'",
+                        figure.key_rows)
+          : "unset key");
+  return run_gnuplot("set encoding utf8\n" + script + outer_parts +
+                         in_both_formats(plot_command(figure.plots), {}, stem),
+                     stem);
+}
+
+std::optional<std::string> draw(const GnuplotPanels& figure, const std::filesystem::path& stem) {
+  constexpr int font = 13;
+  constexpr int title_height = 36;
+  const PanelRoom& room = figure.room;
+  const int width = room.left + room.width + room.right;
+  const int height = room.above + room.height + room.below;
+  const auto columns = static_cast<int>(figure.columns);
+  const auto rows = (static_cast<int>(figure.panels.size()) + columns - 1) / columns;
+  const PictureSize size{
+      .width = columns * width, .height = rows * height + title_height, .font = font};
+  std::string commands =
+      fmt::format("set multiplot title {} font ',{}'\n", gnuplot_text(figure.title), font + 1);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const auto number = static_cast<int>(i);
+    const int left = number % columns * width + room.left;
+    const int above = title_height + number / columns * height + room.above;
+    const auto edge = [](const char* name, int pixels, int whole) {
+      return fmt::format("set {}margin at screen {}\n", name, double(pixels) / whole);
+    };
+    const GnuplotPanel& panel = figure.panels[i];
+    commands += "reset\nset border linewidth 0.8\nunset key\n" + edge("l", left, size.width) +
+                edge("r", left + room.width, size.width) +
+                edge("t", size.height - above, size.height) +
+                edge("b", size.height - above - room.height, size.height) + panel.settings +
+                plot_command(panel.plots) + '\n';
+  }
+  return run_gnuplot(
+      "set encoding utf8\n" + in_both_formats(commands + "unset multiplot", size, stem), stem);
 }
 
 }  // namespace nlcwfs

@@ -16,6 +16,30 @@ struct GnuplotFigure {
   std::vector<std::string> plots;  ///< of one plot command
 };
 
+/// One of several plots in a picture.
+struct GnuplotPanel {
+  std::string settings;            ///< data and axes; those of other panels do not reach it
+  std::vector<std::string> plots;  ///< of one plot command
+};
+
+/// The room of a panel in pixels of the SVG; the PNG has 1.5 times as many.
+struct PanelRoom {
+  int width;   ///< within the axes
+  int height;  ///< within the axes
+  int left;    ///< of them, for tics and labels
+  int right;   ///< likewise, also for a scale of colours
+  int below;   ///< likewise
+  int above;   ///< likewise, for the panel's title
+};
+
+/// Several plots beside and below each other.
+struct GnuplotPanels {
+  std::string title;                 ///< above all
+  std::size_t columns;               ///< in which they stand
+  PanelRoom room;                    ///< of each
+  std::vector<GnuplotPanel> panels;  ///< row by row
+};
+
 /// A text that gnuplot takes as it stands.
 std::string gnuplot_text(std::string_view text);
 
@@ -23,6 +47,18 @@ std::string gnuplot_text(std::string_view text);
 /// 2008).
 inline constexpr std::array<std::string_view, 5> distinct_colours{"0072b2", "d55e00", "009e73",
                                                                   "cc79a7", "e69f00"};
+
+/// Viridis by van der Walt & Smith (public domain): of even perceptual steps, also for the
+/// colour-blind and in grey.
+inline constexpr std::string_view sequential_palette =
+    "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', "
+    "5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 '#b5de2b', 9 '#fde725')\n";
+
+/// PuOr of ColorBrewer (Brewer & Harrower, Apache 2.0): two hues about white that the colour-blind
+/// tell apart.
+inline constexpr std::string_view signed_palette =
+    "set palette defined (0 '#7f3b08', 1 '#b35806', 2 '#e08214', 3 '#fdb863', 4 '#fee0b6', "
+    "5 '#f7f7f7', 6 '#d8daeb', 7 '#b2abd2', 8 '#8073ac', 9 '#542788', 10 '#2d004b')\n";
 
 /// A logarithmic axis that reaches little further than its values, where gnuplot's own would end at
 /// whole decades, with round numbers on it.
@@ -46,5 +82,6 @@ std::string data_block(std::string_view name, const std::string& rows);
 /// @return why there is no picture (gnuplot is not installed, or fails); nothing where there is one
 std::optional<std::string> draw(const std::string& script, const GnuplotFigure& figure,
                                 const std::filesystem::path& stem);
+std::optional<std::string> draw(const GnuplotPanels& figure, const std::filesystem::path& stem);
 
 }  // namespace nlcwfs

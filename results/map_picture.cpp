@@ -23,11 +23,6 @@ constexpr std::size_t most_cells = 100'000;
 /// Values over a wider range than this are shown on a logarithmic scale.
 constexpr double linear_range = 4.0;
 
-/// Viridis by van der Walt & Smith (public domain): of even perceptual steps, also for the
-/// colour-blind and in grey.
-constexpr std::array viridis{"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
-                             "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"};
-
 struct Range {
   double least = std::numeric_limits<double>::infinity();
   double greatest = -std::numeric_limits<double>::infinity();
@@ -254,10 +249,6 @@ std::optional<std::string> write_picture(const MapPicture& picture,
   std::vector<std::string> level_texts;
   level_texts.reserve(levels.size());
   for (const double level : levels) level_texts.push_back(fmt::format("{:.12g}", level));
-  std::vector<std::string> colours;
-  for (std::size_t i = 0; i < viridis.size(); ++i) {
-    colours.push_back(fmt::format("{} '{}'", i, viridis[i]));
-  }
   std::string script = data_block("cells", cells) + overlay_data(picture.overlay);
   std::vector<std::string> plots{
       "$cells using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid border linewidth 0.4 linecolor "
@@ -273,16 +264,16 @@ std::optional<std::string> write_picture(const MapPicture& picture,
     plots.emplace_back(
         "$contours using 1:2 with lines linecolor rgb '#50ffffff' linewidth 0.9 notitle");
   }
-  script += x.script("x") + y.script("y") +
-            fmt::format(
-                "set palette defined ({})\nset cblabel {} offset 0.8,0\n"
-                "set cbrange [{}:{}]\n{}set cbtics ({})\n",
-                fmt::join(colours, ", "), gnuplot_text(picture.value_label), values.least,
-                values.greatest, is_logarithmic ? "set logscale cb\n" : "",
-                fmt::join(level_texts, ", ")) +
-            // Where there is no value.
-            "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#d9d9d9' "
-            "fillstyle solid noborder\n";
+  script +=
+      x.script("x") + y.script("y") +
+      fmt::format(
+          "{}set cblabel {} offset 0.8,0\n"
+          "set cbrange [{}:{}]\n{}set cbtics ({})\n",
+          sequential_palette, gnuplot_text(picture.value_label), values.least, values.greatest,
+          is_logarithmic ? "set logscale cb\n" : "", fmt::join(level_texts, ", ")) +
+      // Where there is no value.
+      "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#d9d9d9' "
+      "fillstyle solid noborder\n";
   const std::vector<std::string> overlay = overlay_plots(picture.overlay, true);
   plots.insert(plots.end(), overlay.begin(), overlay.end());
   return draw(script, {picture.title, overlay.empty() ? 0 : 1, plots}, stem);

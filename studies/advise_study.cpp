@@ -1,6 +1,7 @@
 #include "model/input_error.hpp"
 #include "objectives/design_trial.hpp"
 #include "results/design_summary.hpp"
+#include "studies/closer_look.hpp"
 #include "studies/design_text.hpp"
 #include "studies/law_file.hpp"
 #include "studies/run_record.hpp"
@@ -135,7 +136,7 @@ void run_advise(const CommandLine& command_line) {
                            : parse_law_file(built_in_law_text(), "(built in)");
   const double d_over_r0 = telescope.diameter / seeing.fried_parameter;
   const SensorDesign design = advised_design(configuration, file.law, telescope, seeing);
-  const std::vector<std::string> notes = differing_conditions(configuration, file.conditions);
+  std::vector<std::string> notes = differing_conditions(configuration, file.conditions);
   std::optional<DesignTrial> verification;
   if (command_line.verify) verification = verification_trial_of(configuration);
   if (verification) {
@@ -178,7 +179,12 @@ void run_advise(const CommandLine& command_line) {
   record.folder().write("advised.cfg", advised.dump());
   record.folder().write("law.json", to_json(file).dump(2) + '\n');
   Json summary{{"design", design_json}, {"predicted", predicted}, {"law", to_json(file.law)}};
-  if (verified) summary["difference"] = differences;
+  if (verified) {
+    summary["difference"] = differences;
+    const CloserLook look = look_closer(*verification, *verified, record.folder());
+    summary["closer_look"] = look.summary;
+    notes.insert(notes.end(), look.notes.begin(), look.notes.end());
+  }
   record.write_summary(summary);
 
   for (const std::string& note : notes) fmt::print("note: {}\n", note);

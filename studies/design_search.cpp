@@ -257,6 +257,7 @@ SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpa
   result.saved_reconstructions +=
       screens * (found.evaluations - found.failures) - log.reconstructions();
   result.table = log.table();
+  result.steps = log.steps();
   return found;
 }
 

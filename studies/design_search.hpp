@@ -9,6 +9,7 @@
 #include "optimizer/chained_search.hpp"
 #include "results/archive.hpp"
 #include "studies/configuration.hpp"
+#include "studies/search_pictures.hpp"
 #include "studies/verified_ranking.hpp"
 
 #include <optional>
@@ -48,6 +49,7 @@ struct DesignSearchResult {
   long reconstructions = 0;         ///< verification and ranges included
   double search_seconds = 0.0;      ///< of both stages, s
   std::string table;                ///< CSV of the designs of the search
+  std::vector<SearchStep> steps;    ///< of the search
 
   /// The best of the ranking.
   const TriedDesign& best() const { return ranking.front().verified; }

@@ -1,4 +1,5 @@
 #include "results/design_summary.hpp"
+#include "studies/closer_look.hpp"
 #include "studies/design_text.hpp"
 #include "studies/evaluation_log.hpp"
 #include "studies/progress.hpp"
@@ -38,7 +39,13 @@ void run_evaluate(const CommandLine& command_line) {
                    .seconds = seconds,
                    .performance = to_json(performance).dump()});
   record.folder().write("screens.csv", screens_table(performance));
-  record.write_summary({{"design", to_json(tried, trial)}});
+  nlohmann::ordered_json summary{{"design", to_json(tried, trial)}};
+  if (!command_line.silent) {
+    const CloserLook look = look_closer(trial, tried, record.folder());
+    summary["closer_look"] = look.summary;
+    notes.insert(notes.end(), look.notes.begin(), look.notes.end());
+  }
+  record.write_summary(summary);
 
   for (const std::string& note : notes) record.print("note: {}\n", note);
   record.print("{}\n\n", telescope_line(telescope, seeing));

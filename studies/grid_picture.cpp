@@ -1,8 +1,10 @@
 #include "studies/grid_picture.hpp"
 
 #include "objectives/design_space.hpp"
+#include "results/fits_cube.hpp"
 #include "results/json_numbers.hpp"
 #include "results/map_picture.hpp"
+#include "studies/axis_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +13,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <boost/algorithm/string/case_conv.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,25 +24,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// A name of a summary for people, with its unit behind a comma: "total wfe, nm".
-std::string label_of(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> labels{
-      {{"residual_wfe_nm", "residual WFE, nm"},
-       {"fractional_loops", "fractional loops"},
-       {"z_near", "distance of the near pair"},
-       {"z_far", "distance of the far pair"},
-       {"z_third", "distance of the third pair"},
-       {"order", "visiting order"},
-       {"detector_window", "detector window, pupil diameters"},
-       {"reconstruction_window", "reconstruction window, pupil diameters"}}};
-  const auto* const known = std::ranges::find(labels, name, &decltype(labels)::value_type::first);
-  if (known != labels.end()) return std::string(known->second);
-  if (name.size() == 2 && name[0] == 'z') return fmt::format("distance of plane {}", name[1]);
-  std::string label(name);
-  std::ranges::replace(label, '_', ' ');
-  return label;
-}
-
 /// An axis of the grid as it is drawn.
 struct GridPictureAxis {
   explicit GridPictureAxis(const Json& axis);
@@ -49,6 +33,8 @@ struct GridPictureAxis {
   double place_of(const SensorDesign& design, const std::vector<std::string>& orders) const;
 
   std::string name;
+  std::string si_unit;
+  std::vector<double> si_values;  ///< those of words are their numbers
   PictureAxis drawn;
   double unit = 1.0;  ///< of what is drawn, SI
 };
@@ -63,16 +49,11 @@ GridPictureAxis::GridPictureAxis(const Json& axis) : name(axis.at("name")) {
       drawn.values.push_back(value);
     }
   }
-  if (axis.at("unit") != "m") return;
-  double greatest = 0.0;
-  for (const double value : drawn.values) greatest = std::max(greatest, std::abs(value));
-  constexpr std::array<std::pair<double, std::string_view>, 4> units{
-      {{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-9, "nm"}}};
-  const auto* const chosen = std::ranges::find_if(
-      units, [&](const auto& candidate) { return greatest >= candidate.first; });
-  const auto& [size, word] = chosen == units.end() ? units.back() : *chosen;
-  unit = size;
-  drawn.label += fmt::format(", {}", word);
+  si_unit = axis.at("unit");
+  si_values = drawn.values;
+  const AxisUnit shown = axis_unit_of(si_unit, si_values);
+  unit = shown.size;
+  drawn.label += shown.suffix();
   for (double& value : drawn.values) value /= unit;
 }
 
@@ -177,6 +158,28 @@ std::vector<double> DrawnGrid::values_of(const Json& matrix) const {
 }
 
 }  // namespace
+
+void write_grid_map(const Json& grid, const std::string& figure, const std::string& unit,
+                    const std::filesystem::path& path) {
+  const DrawnGrid drawn(grid);
+  if (drawn.axes().size() != 2) return;
+  const auto axis_of = [](const GridPictureAxis& axis) {
+    return FitsMapAxis{.name = boost::algorithm::to_upper_copy(axis.name),
+                       .unit = axis.si_unit,
+                       .values = axis.si_values,
+                       .words = axis.drawn.words,
+                       .description = label_of(axis.name)};
+  };
+  FitsMap map{
+      .unit = unit, .x = axis_of(drawn.axes()[0]), .y = axis_of(drawn.axes()[1]), .values = {}};
+  const std::vector<double> values = drawn.values_of(grid.at(figure));
+  // They have the second axis running fastest.
+  map.values = Eigen::Map<const Image<double>>(values.data(), Eigen::Index(map.x.values.size()),
+                                               Eigen::Index(map.y.values.size()))
+                   .transpose();
+  std::filesystem::remove(path);  // of a run that was interrupted
+  write_fits_map(path, map);
+}
 
 std::optional<std::string> write_grid_picture(const std::string& title, const Json& grid,
                                               const std::string& figure, const CostedDesign& best,

@@ -24,6 +24,16 @@ struct SearchPath {
   CostedDesign best;                  ///< of them
 };
 
+/// Writes a figure of a sweep's grid as a FITS map over the axes that its picture has, in SI;
+/// nothing where that has not two.
+/// @param grid    the object `grid` of a sweep's summary
+/// @param figure  one of its matrices: "cost", "residual_wfe_nm", ...
+/// @param unit    of the figure, as FITS has it
+/// @param path    of the file, which is replaced
+/// @throws std::runtime_error with path and cause where it cannot be written
+void write_grid_map(const nlohmann::ordered_json& grid, const std::string& figure,
+                    const std::string& unit, const std::filesystem::path& path);
+
 /// Draws a figure of a sweep's grid: a map over two axes, a line over one. Of more axes than two,
 /// the two of the most values are drawn, and at each of their points the design of the others that
 /// costs the least.

@@ -1,7 +1,9 @@
 #include "results/design_summary.hpp"
+#include "studies/closer_look.hpp"
 #include "studies/design_search.hpp"
 #include "studies/design_text.hpp"
 #include "studies/run_record.hpp"
+#include "studies/search_pictures.hpp"
 #include "studies/settings.hpp"
 #include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
@@ -140,11 +142,11 @@ std::string limits_text(const TriedDesign& best) {
 }
 
 void print_result(const DesignSearch& task, const DesignSearchResult& result,
-                  std::string_view precision) {
+                  std::string_view precision, const std::vector<std::string>& notes) {
   const TriedDesign& best = result.best();
   const Performance best_performance = pooled(best.performances);
   const Performance baseline_performance = pooled(result.baseline.performances);
-  for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing),
              search_text(task, result, precision));
   fmt::print("Best design, planes in visiting order:\n{}{}\n",
@@ -177,6 +179,16 @@ void run_optimize(const CommandLine& command_line) {
   set_design(best_configuration, result.best().design, task.space, "by the search");
   record.folder().write("best.cfg", best_configuration.dump());
   record.folder().write("search.csv", result.table);
+  record.folder().write("sensitivity.csv", sensitivity_table(result.ranges));
+  const CloserLook look = look_closer(task.verification, result.best(), record.folder());
+  const std::string title = picture_title(task.telescope, task.seeing);
+  std::vector<PlannedPicture> pictures{search_picture(title, result.steps)};
+  if (!result.ranges.empty()) pictures.push_back(sensitivity_picture(title, result.ranges));
+  std::vector<std::string> notes = task.notes;
+  for (const std::vector<std::string>& more :
+       {look.notes, draw_pictures(pictures, record.folder())}) {
+    notes.insert(notes.end(), more.begin(), more.end());
+  }
   record.write_summary(
       {{"best", to_json(result.best(), task.verification)},
        {"baseline", to_json(result.baseline, task.verification)},
@@ -184,6 +196,7 @@ void run_optimize(const CommandLine& command_line) {
         {{"cost", result.gain.cost.mean}, {"standard_error", result.gain.cost.standard_error}}},
        {"ranking", to_json(result.ranking, task.verification)},
        {"indistinguishable", ranges_object(result)},
+       {"closer_look", look.summary},
        {"evaluations", result.search.evaluations},
        {"cheap_evaluations", result.cheap_evaluations},
        {"given_up", result.given_up},
@@ -196,7 +209,7 @@ void run_optimize(const CommandLine& command_line) {
        {"search_seconds", result.search_seconds},
        {"termination", to_string(result.search.termination)},
        {"stages", stages_array(result.search)}});
-  print_result(task, result, configuration.choice("search.precision"));
+  print_result(task, result, configuration.choice("search.precision"), notes);
   record.close();
 }
 

@@ -72,17 +72,12 @@ std::optional<std::string> draw_map(const DistanceMap& map, int ratio, const std
 
 /// As a FITS image: Z_far along axis 1, Z_near along axis 2.
 void write_map(const DistanceMap& map, const std::filesystem::path& path) {
-  const auto axis = [](const char* name, const std::vector<double>& distances) {
-    return FitsAxis{.name = name,
-                    .unit = "m",
-                    .reference_value = distances[0],
-                    .step = distances[1] - distances[0],
-                    .description = "distance of a pair"};
-  };
   std::filesystem::remove(path);  // of a report that was interrupted
-  write_fits_cube(
-      path, {map.unit, {map.values}},
-      axis_keywords({axis("Z_FAR", map.places.far()), axis("Z_NEAR", map.places.near())}));
+  const std::string description = "distance of a pair";
+  write_fits_map(path, {.unit = map.unit,
+                        .x = {"Z_FAR", "m", map.places.far(), {}, description},
+                        .y = {"Z_NEAR", "m", map.places.near(), {}, description},
+                        .values = map.values});
 }
 
 /// What the maps hold, with standard errors, one line for each design.

@@ -1,5 +1,6 @@
 #include "model/pupil.hpp"
 #include "model/screen_statistics.hpp"
+#include "model/wavefront_metrics.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/fits_cube.hpp"
@@ -44,10 +45,6 @@ std::string structure_function_table(const std::vector<PhaseScreen>& screens, do
   return table.text();
 }
 
-void remove_piston(PhaseScreen& screen, const PupilMask& mask) {
-  screen -= mask.select(screen, 0.0).sum() / double(mask.count());
-}
-
 }  // namespace
 
 void run_screens(const CommandLine& command_line) {
@@ -75,7 +72,7 @@ void run_screens(const CommandLine& command_line) {
 
   const auto samples = static_cast<int>(screens.front().rows());
   const PupilMask mask = pupil_mask(samples, telescope.central_obscuration);
-  for (PhaseScreen& screen : screens) remove_piston(screen, mask);
+  for (PhaseScreen& screen : screens) screen -= piston(screen, mask);
   const MeanAndError variance = piston_removed_variance(screens, mask);
   const MeanAndError tilt_removed = tilt_removed_variance(screens, mask);
   const double expected = noll_piston_removed_variance(telescope.diameter, seeing.fried_parameter);

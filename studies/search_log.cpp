@@ -87,6 +87,10 @@ void SearchLog::add(const EvaluationRecord& evaluation) {
     }
   }
   given_up_ += evaluation.given_up ? 1 : 0;
+  steps_.push_back({.evaluation = evaluation.index,
+                    .cost = evaluation.cost,
+                    .best_cost = evaluation.best_cost,
+                    .given_up = evaluation.given_up});
   show_progress(evaluation);
 }
 

@@ -8,6 +8,7 @@
 #include "results/archive.hpp"
 #include "results/csv_table.hpp"
 #include "studies/progress.hpp"
+#include "studies/search_pictures.hpp"
 
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ class SearchLog {
   int given_up() const { return given_up_; }
   /// The designs in the order in which they were tried.
   std::string table() const { return table_.text(); }
+  const std::vector<SearchStep>& steps() const { return steps_; }
 
  private:
   void show_progress(const EvaluationRecord& evaluation);
@@ -50,6 +52,7 @@ class SearchLog {
   Archive& archive_;
   Progress progress_;
   CsvTable table_;
+  std::vector<SearchStep> steps_;
   long reconstructions_ = 0;
   int budget_;
   int evaluations_ = 0;

@@ -3,10 +3,12 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/json_numbers.hpp"
+#include "studies/closer_look.hpp"
 #include "studies/design_text.hpp"
 #include "studies/evaluation_log.hpp"
 #include "studies/grid_picture.hpp"
 #include "studies/interrupt.hpp"
+#include "studies/picture_set.hpp"
 #include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
@@ -415,22 +417,27 @@ std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const
   return ranked(std::move(verified));
 }
 
-/// The maps of the figures that people look at first.
+/// A figure that people look at first.
+struct MapFigure {
+  const char* name;  ///< in the summary's grid
+  const char* unit;  ///< as FITS has it
+  const char* file;  ///< of the map, without what it ends with
+};
+constexpr std::array<MapFigure, 3> map_figures{{{"cost", "", "map-cost"},
+                                                {"residual_wfe_nm", "nm", "map-residual_wfe"},
+                                                {"fractional_loops", "", "map-fractional_loops"}}};
+
 /// @return notes where there is no map
-std::vector<std::string> write_maps(const Task& task, const Json& grid, const CostedDesign& best,
-                                    const OutputFolder& folder) {
-  constexpr std::array<std::pair<const char*, const char*>, 3> maps{
-      {{"cost", "map-cost"},
-       {"residual_wfe_nm", "map-residual_wfe"},
-       {"fractional_loops", "map-fractional_loops"}}};
-  std::vector<std::string> notes;
-  for (const auto& [figure, name] : maps) {
-    if (const auto reason = write_grid_picture(picture_title(task.telescope, task.seeing), grid,
-                                               figure, best, folder.file(name))) {
-      notes.push_back(fmt::format("there is no {}.svg: {}", name, *reason));
-    }
+std::vector<std::string> draw_maps(const Task& task, const Json& grid, const CostedDesign& best,
+                                   const OutputFolder& folder) {
+  std::vector<PlannedPicture> pictures;
+  for (const MapFigure& map : map_figures) {
+    pictures.push_back({map.file, [&, map](const auto& stem) {
+                          return write_grid_picture(picture_title(task.telescope, task.seeing),
+                                                    grid, map.name, best, stem);
+                        }});
   }
-  return notes;
+  return draw_pictures(pictures, folder);
 }
 
 }  // namespace
@@ -468,28 +475,38 @@ void run_sweep(const CommandLine& command_line) {
   const Json grid = grid_object(task, points);
   std::vector<std::string> notes = task.notes;
   std::ranges::move(
-      write_maps(task, grid, {best.design, mean_and_standard_error(on_search_screens.costs).mean},
-                 record.folder()),
+      draw_maps(task, grid, {best.design, mean_and_standard_error(on_search_screens.costs).mean},
+                record.folder()),
       std::back_inserter(notes));
   const auto failures = static_cast<int>(std::ranges::count_if(
       sweep.outcomes(), [](const auto& outcome) { return !outcome->failure.empty(); }));
   const auto evaluations = static_cast<int>(sweep.designs().size());
-  record.write_summary(
-      {{"best", to_json(best, task.verification)},
-       {"best_on_search_screens", to_json(on_search_screens, task.trial)},
-       {"ranking", to_json(ranking, task.verification)},
-       {"grid", grid},
-       {"points", task.grid.size()},
-       {"evaluations", evaluations},
-       {"failures", failures},
-       {"search_reconstructions", std::int64_t(evaluations - failures) * task.trial.screen_count() *
-                                      static_cast<std::int64_t>(task.trial.conditions().size())},
-       {"reconstructions",
-        (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
-         static_cast<std::int64_t>(ranking.size()) * task.verification.screen_count()) *
-            static_cast<std::int64_t>(task.trial.conditions().size())},
-       {"wall_seconds", seconds_before + stopwatch.seconds()},
-       {"search_seconds", sweep.elapsed()}});
+  Json summary{
+      {"best", to_json(best, task.verification)},
+      {"best_on_search_screens", to_json(on_search_screens, task.trial)},
+      {"ranking", to_json(ranking, task.verification)},
+      {"grid", grid},
+      {"points", task.grid.size()},
+      {"evaluations", evaluations},
+      {"failures", failures},
+      {"search_reconstructions", std::int64_t(evaluations - failures) * task.trial.screen_count() *
+                                     static_cast<std::int64_t>(task.trial.conditions().size())},
+      {"reconstructions",
+       (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
+        static_cast<std::int64_t>(ranking.size()) * task.verification.screen_count()) *
+           static_cast<std::int64_t>(task.trial.conditions().size())},
+      {"wall_seconds", seconds_before + stopwatch.seconds()},
+      {"search_seconds", sweep.elapsed()}};
+  if (!command_line.silent) {
+    for (const MapFigure& map : map_figures) {
+      write_grid_map(grid, map.name, map.unit,
+                     record.folder().file(std::string(map.file) + ".fits"));
+    }
+    const CloserLook look = look_closer(task.verification, best, record.folder());
+    summary["closer_look"] = look.summary;
+    std::ranges::copy(look.notes, std::back_inserter(notes));
+  }
+  record.write_summary(summary);
 
   const Performance performance = pooled(best.performances);
   const Performance search_performance = pooled(on_search_screens.performances);

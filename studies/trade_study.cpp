@@ -1,6 +1,7 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/scatter_picture.hpp"
+#include "studies/closer_look.hpp"
 #include "studies/design_text.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
@@ -338,11 +339,21 @@ void run_trade(const CommandLine& command_line) {
     record.folder().write("knee.cfg", knee_configuration.dump());
   }
   const auto no_picture = write_picture(front_picture(task, result), record.folder().file("front"));
+  std::vector<std::string> notes = task.notes;
+  if (no_picture) notes.push_back(fmt::format("there is no front.svg: {}", *no_picture));
+  Json look(nullptr);
+  if (result.knee) {
+    CloserLook knee =
+        look_closer(task.verification, result.front[*result.knee].verified, record.folder());
+    look = std::move(knee.summary);
+    std::ranges::move(knee.notes, std::back_inserter(notes));
+  }
   Json names = Json::array();
   for (const DesignMetric& objective : task.objectives) names.push_back(objective.name);
   record.write_summary({{"objectives", names},
                         {"front", front_array(task, result)},
                         {"knee", result.knee ? Json(*result.knee) : Json(nullptr)},
+                        {"closer_look", look},
                         {"hypervolume", result.hypervolume},
                         {"hypervolume_fraction", result.hypervolume_fraction},
                         {"reference_point", reference_object(task, result)},
@@ -359,15 +370,15 @@ void run_trade(const CommandLine& command_line) {
                         {"termination", to_string(result.search.termination)},
                         {"verification_interrupted", result.verification_interrupted}});
 
-  for (const std::string& note : task.notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
   fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing),
              search_text(task, result, configuration));
   if (!result.front.empty()) {
     fmt::print("Front, on the fresh screens:\n{}{}\n", front_text(task, result),
                bests_text(task, result));
   }
-  if (no_picture) fmt::print("note: there is no picture of the front: {}\n", *no_picture);
-  fmt::print("{}\n{}", knee_text(task, result), hypervolume_text(task, result));
+  fmt::print("{}
+{}", knee_text(task, result), hypervolume_text(task, result));
   record.close();
 }
 

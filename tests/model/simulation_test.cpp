@@ -1,6 +1,8 @@
 #include "model/simulation.hpp"
 
+#include "model/gerchberg_saxton.hpp"
 #include "model/turbulence_screen.hpp"
+#include "model/wavefront_metrics.hpp"
 #include "tests/message_of.hpp"
 
 #include <atomic>
@@ -298,6 +300,69 @@ TEST_P(SimulationTruth, APlaneAtThePupilCapturesAllAndKeepsTheSymmetry) {
                     options_);
   }();
   expect_equal(conjugate, first);
+}
+
+TEST_P(SimulationTruth, ARecordIsOfTheEvaluation) {
+  design_.detector.photons = 1e5;
+  for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+    options_.precision = precision;
+    const Simulation simulation({}, screens_, options_);
+    const Performance performance = simulation.evaluate(design_);
+    const PupilMask mask = pupil_mask(design_.pupil_samples(), 0.0);
+    const double length_per_radian = Telescope{}.wavelength / (2.0 * std::numbers::pi);
+    for (int i = 0; i < simulation.screen_count(); ++i) {
+      const ScreenPerformance& screen = performance.screens[static_cast<std::size_t>(i)];
+      const ScreenRecord record = simulation.record(design_, i);
+      expect_identical({{record.performance}}, {{screen}});
+      // The residual phase is the wavefront error.
+      EXPECT_NEAR(length_per_radian * piston_free_rms(record.residual_phase, mask),
+                  screen.wavefront.residual_wfe, 1e-12 * screen.wavefront.residual_wfe);
+      // One residual per loop, ending where the rule stopped.
+      ASSERT_EQ(record.performance.residual_after_loops.size(), std::size_t(screen.loops));
+      EXPECT_EQ(record.performance.residual_after_loops.back(), screen.wavefront.residual_wfe);
+    }
+  }
+}
+
+TEST_P(SimulationTruth, ARecordsPhasesCoverThePupilWithoutPiston) {
+  const ScreenRecord record = Simulation({}, screens_, options_).record(design_, 1);
+  const PupilMask mask = pupil_mask(design_.pupil_samples(), 0.0);
+  const std::vector<const Image<double>*> phases{&record.true_phase, &record.reconstructed_phase,
+                                                 &record.residual_phase};
+  for (const Image<double>* phase : phases) {
+    ASSERT_EQ(phase->rows(), mask.rows());
+    EXPECT_TRUE((phase->isNaN() == !mask).all());
+    EXPECT_NEAR(piston(*phase, mask), 0.0, 1e-12);
+  }
+  const Image<double> difference = record.reconstructed_phase - record.true_phase;
+  EXPECT_LT(mask.select((difference - record.residual_phase).abs(), 0.0).maxCoeff(), 1e-12);
+  const Image<double> sampled =
+      block_average(screens_[1], screens_[1].rows() / design_.pupil_samples());
+  EXPECT_LT(
+      mask.select((record.true_phase - sampled + piston(sampled, mask)).abs(), 0.0).maxCoeff(),
+      1e-12);
+}
+
+TEST_P(SimulationTruth, ARecordsImagesAreThoseOfTheReconstruction) {
+  design_.detector.photons = 1e5;
+  const Simulation simulation({}, screens_, options_);
+  const SensorDesign design = simulation.checked(design_);
+  const ScreenRecord record = simulation.record(design_, 2);
+  ASSERT_EQ(record.images.size(), design.planes.size());
+  const GerchbergSaxton<double> loop({}, design);
+  const Image<double> phase = loop.unwrapper().unwrap(loop.reconstruct(record.images).pupil_field);
+  const Image<double> shown = phase - piston(phase, loop.mask());
+  EXPECT_TRUE(loop.mask().select(shown == record.reconstructed_phase, true).all());
+
+  design_.detector.photons = 0.0;
+  const ScreenRecord noise_free = simulation.record(design_, 2);
+  const double pupil = double(pupil_mask(screen_samples, 0.0).count()) /
+                       std::pow(screen_samples / design_.detector.pupil_pixels, 2);
+  for (std::size_t plane = 0; plane < design.planes.size(); ++plane) {
+    EXPECT_NEAR(noise_free.images[plane].sum() / pupil,
+                noise_free.performance.captured_energy[plane], 1e-12);
+    EXPECT_FALSE((noise_free.images[plane] == record.images[plane]).all());
+  }
 }
 
 TEST(Simulation, CapturedEnergyGrowsWithTheWindowToOne) {

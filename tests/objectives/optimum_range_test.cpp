@@ -4,6 +4,7 @@
 #include "tests/objectives/tiny_simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -61,6 +62,53 @@ TEST(OptimumRange, HoldsTheBestAndEndsWhereDesignsAreWorse) {
     }
   }
   EXPECT_GE(ends_inside, 3) << "the test shows little";
+}
+
+TEST(OptimumRange, KeepsEveryValueThatItTried) {
+  const Telescope telescope;
+  const DesignTrial trial({tiny_condition(telescope, 4.0, 12)}, {});
+  const DesignSpace space = space_of_two_pairs(telescope);
+  const SearchPoint best = space.point_of(tiny_design(telescope)).value();
+  const OptimumScan scan = optimum_ranges(space, trial, best);
+  const TriedDesign reference = trial.run(space.design(best));
+  int tried = 1;
+  int worse = 0;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const OptimumRange& range = scan.ranges[i];
+    SCOPED_TRACE(range.name);
+    EXPECT_TRUE(std::ranges::is_sorted(range.values, {}, &ScannedValue::value));
+    tried += static_cast<int>(range.values.size()) - 1;
+    int of_the_best = 0;
+    for (const ScannedValue& scanned : range.values) {
+      SCOPED_TRACE(scanned.value);
+      worse += scanned.is_worse ? 1 : 0;
+      // All that is worse is outside the range, all else inside.
+      EXPECT_EQ(scanned.is_worse, scanned.value < range.least || scanned.value > range.greatest);
+      SensorDesign design = space.design(best);
+      if (range.name == "relaxation") {
+        design.reconstruction.relaxation_start = scanned.value;
+        design.reconstruction.relaxation_end = scanned.value;
+      } else {
+        const std::size_t pair = range.name == "z_near" ? 2 : 0;
+        for (const std::size_t plane : {pair, pair + 1}) {
+          design.planes[plane] = std::copysign(scanned.value, design.planes[plane]);
+        }
+      }
+      if (scanned.value == range.best) {
+        ++of_the_best;
+        EXPECT_EQ(scanned.cost_difference.mean, 0.0);
+        EXPECT_EQ(scanned.cost_difference.standard_error, 0.0);
+        continue;
+      }
+      const MeanAndError gain = improvement(trial.run(design), reference).cost;
+      EXPECT_NEAR(scanned.cost_difference.mean, -gain.mean, 1e-6);
+      EXPECT_NEAR(scanned.cost_difference.standard_error, gain.standard_error, 1e-6);
+      EXPECT_GT(gain.standard_error, 0.0);
+    }
+    EXPECT_EQ(of_the_best, 1);
+  }
+  EXPECT_EQ(scan.designs, tried) << "nothing is simulated that is not kept";
+  EXPECT_GE(worse, 2) << "the test shows little";
 }
 
 TEST(OptimumRange, ReportsItsShareAndEndsWithTheVariablesThatAreDone) {

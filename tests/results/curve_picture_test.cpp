@@ -43,6 +43,42 @@ TEST_F(CurvePictureTest, LogarithmicAxesAreDrawnAsSuch) {
   EXPECT_NE(contents("linear.svg"), contents("logarithmic.svg"));
 }
 
+TEST_F(CurvePictureTest, PointsAreNotJoined) {
+  CurvePicture picture = two_curves();
+  ASSERT_EQ(write_picture(picture, "joined"), std::nullopt);
+  for (Curve& curve : picture.curves) curve.is_points = true;
+  ASSERT_EQ(write_picture(picture, "points"), std::nullopt);
+  EXPECT_NE(contents("joined.svg"), contents("points.svg"));
+}
+
+TEST_F(CurvePictureTest, ABandIsShaded) {
+  CurvePicture picture = two_curves();
+  ASSERT_EQ(write_picture(picture, "without"), std::nullopt);
+  picture.band = {1.5, 2.5};
+  ASSERT_EQ(write_picture(picture, "with"), std::nullopt);
+  const std::string shade = "rgb(220, 235, 245)";
+  EXPECT_THAT(contents("with.svg"), HasSubstr(shade));
+  EXPECT_THAT(contents("without.svg"), Not(HasSubstr(shade)));
+}
+
+TEST_F(CurvePictureTest, SeveralStandSideBySideEachWithItsAxes) {
+  CurvePicture second = two_curves();
+  second.title = "the second";
+  second.x_label = "distance, km";
+  second.has_log_y = true;
+  CurvePicture nothing = second;
+  nothing.title = "left out";
+  nothing.curves.clear();
+  ASSERT_EQ(write_picture("all of them", {two_curves(), nothing, second}, "panels"), std::nullopt);
+  EXPECT_THAT(names_in("."), ElementsAre("panels.png", "panels.svg"));
+  EXPECT_THAT(
+      contents("panels.svg"),
+      AllOf(HasSubstr("all of them"), HasSubstr("error after each loop"), HasSubstr("the second"),
+            HasSubstr("loops"), HasSubstr("distance, km"), Not(HasSubstr("left out"))));
+  EXPECT_EQ(write_picture("none", {nothing}, "nothing"), "there is no value to draw");
+  EXPECT_EQ(write_picture("none", {}, "nothing"), "there is no value to draw");
+}
+
 TEST_F(CurvePictureTest, SaysWhereThereIsNothingToDraw) {
   CurvePicture picture = two_curves();
   for (Curve& curve : picture.curves) curve.y = {NAN, NAN, NAN};

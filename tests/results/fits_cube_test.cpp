@@ -146,6 +146,44 @@ TEST_F(FitsCubeFile, WritesAxesAsWorldCoordinates) {
   }
 }
 
+TEST_F(FitsCubeFile, WritesAMapWithTheValuesOfItsAxes) {
+  Image<double> values(2, 3);
+  values << 1.0, 2.0, 3.0, 4.0, std::numeric_limits<double>::quiet_NaN(), 6.0;
+  write_fits_map("map.fits", {.unit = "nm",
+                              .x = {"Z_FAR", "m", {1e3, 2e3, 3e3}},
+                              .y = {"ORDER", "", {0.0, 1.0}, {"3412", "1234"}},
+                              .values = values});
+  const std::string bytes = contents("map.fits");
+  ASSERT_EQ(bytes.size(), 6u * 2880u) << "three headers, each with its data";
+  const std::string image = bytes.substr(0, 2880);
+  for (const std::string& expected :
+       {card("NAXIS", "2"), card("NAXIS1", "3"), card("NAXIS2", "2"),
+        card("CTYPE1", "'Z_FAR   '          "), card("CRVAL1", "1000."), card("CDELT1", "1000."),
+        card("AXIS1", "'Z_FAR   '          "), card("AXIS2", "'ORDER   '          "),
+        card("BUNIT", "'nm      '          ")}) {
+    EXPECT_THAT(image, HasSubstr(expected));
+  }
+  EXPECT_THAT(image, testing::Not(HasSubstr("CRVAL2"))) << "words have no coordinates";
+  EXPECT_EQ(bytes.substr(2880, 4 * 8), doubles({1.0, 2.0, 3.0, 4.0}));
+  const std::string far = bytes.substr(2u * 2880u, 2880);
+  EXPECT_THAT(far, AllOf(HasSubstr("EXTNAME = 'Z_FAR   '"), HasSubstr(card("NAXIS", "1")),
+                         HasSubstr("BUNIT   = 'm       '")));
+  EXPECT_EQ(bytes.substr(3u * 2880u, 3 * 8), doubles({1e3, 2e3, 3e3}));
+  EXPECT_THAT(bytes.substr(4u * 2880u, 2880),
+              AllOf(HasSubstr("EXTNAME = 'ORDER   '"), HasSubstr("WORD0   = '3412    '"),
+                    HasSubstr("WORD1   = '1234    '")));
+}
+
+TEST_F(FitsCubeFile, OnlyEvenAxesOfAMapHaveCoordinatesInItsHeader) {
+  write_fits_map("map.fits", {.unit = "",
+                              .x = {"Z_NEAR", "m", {1e3, 1e4, 1e5}},
+                              .y = {"TOLERANCE", "m", {1e-9}},
+                              .values = Image<double>::Ones(1, 3)});
+  const std::string image = contents("map.fits").substr(0, 2880);
+  EXPECT_THAT(image, AllOf(testing::Not(HasSubstr("CRVAL1")), testing::Not(HasSubstr("CRVAL2")),
+                           HasSubstr("AXIS1"), HasSubstr("AXIS2")));
+}
+
 TEST_F(FitsCubeFile, CentresTheAxesOfEvenAndOddImages) {
   for (const int samples : {1, 4, 5}) {
     const FitsAxis axis = centred_axis("X", samples, 0.25);

@@ -63,6 +63,19 @@ class Program : public ScratchFolder {
     return finished;
   }
 
+  /// These names and those of the files of a closer look at a design.
+  static std::vector<std::string> with_closer_look(std::vector<std::string> names) {
+    names.emplace_back("loops.csv");
+    for (const char* picture :
+         {"design", "loops", "typical-images", "typical-phases", "worst-images", "worst-phases"}) {
+      for (const char* kind : {".png", ".svg"}) names.push_back(std::string(picture) + kind);
+    }
+    for (const char* cube : {"typical-images", "typical-phases", "worst-images", "worst-phases"}) {
+      names.push_back(std::string(cube) + ".fits");
+    }
+    return names;
+  }
+
   static nlohmann::json summary(const std::string& folder) {
     return nlohmann::json::parse(contents(folder + "/summary.json"));
   }

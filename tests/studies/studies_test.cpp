@@ -24,6 +24,7 @@ using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::Not;
 using testing::StartsWith;
+using testing::UnorderedElementsAreArray;
 using Json = nlohmann::json;
 
 std::vector<std::string> keys_of(const Json& json) {
@@ -87,7 +88,8 @@ using Studies = Program;
 TEST_F(Studies, EvaluateLeavesItsFiles) {
   const ProgramRun finished = done("evaluate", "run");
   EXPECT_THAT(names_in("run"),
-              ElementsAre("archive.sqlite", "config.cfg", "screens.csv", "summary.json"));
+              UnorderedElementsAreArray(with_closer_look(
+                  {"archive.sqlite", "config.cfg", "screens.csv", "summary.json"})));
   EXPECT_THAT(finished.output, AllOf(StartsWith("0.5 m telescope at 532 nm, D/r0 = 4"),
                                      HasSubstr("residual WFE, nm"), HasSubstr("2 screens"),
                                      EndsWith("Results are in run.\n")));
@@ -276,8 +278,10 @@ TEST_F(Studies, OptimizeSaysWhereTheBaselineIsNotBeaten) {
 
 TEST_F(Studies, OptimizeLeavesItsFiles) {
   const ProgramRun finished = done("optimize", "run");
-  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "search.csv",
-                                           "summary.json"));
+  EXPECT_THAT(names_in("run"), UnorderedElementsAreArray(with_closer_look(
+                                   {"archive.sqlite", "best.cfg", "config.cfg", "search.csv",
+                                    "search.png", "search.svg", "sensitivity.csv",
+                                    "sensitivity.png", "sensitivity.svg", "summary.json"})));
   EXPECT_THAT(finished.output,
               AllOf(HasSubstr("6 designs on 2 screens"), HasSubstr("2 fresh screens"),
                     HasSubstr("aseline"), EndsWith("Results are in run.\n")));
@@ -420,7 +424,8 @@ TEST_F(Studies, TheConfigurationOfARunReproducesIt) {
     EXPECT_EQ(repeatable_summary(first), repeatable_summary(again)) << command.name;
     EXPECT_EQ(names_in(first), names_in(again));
     for (const char* file : {"config.cfg", "best.cfg", "scaled.cfg", "search.csv", "screens.fits",
-                             "structure_function.csv"}) {
+                             "structure_function.csv", "typical-images.fits", "worst-phases.fits",
+                             "loops.csv", "sensitivity.csv"}) {
       EXPECT_EQ(contents(first + '/' + file), contents(again + '/' + file)) << file;
     }
   }

@@ -17,6 +17,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::SizeIs;
 using testing::StartsWith;
+using testing::UnorderedElementsAreArray;
 using Json = nlohmann::json;
 
 using SweepStudy = Program;
@@ -68,11 +69,12 @@ const std::vector<std::string> grid{"--sweep.z_near", "20km:60km:3",        "--s
 
 TEST_F(SweepStudy, LeavesItsFiles) {
   const ProgramRun finished = done("sweep", "run", grid);
-  EXPECT_THAT(
-      names_in("run"),
-      ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "map-cost.png", "map-cost.svg",
-                  "map-fractional_loops.png", "map-fractional_loops.svg", "map-residual_wfe.png",
-                  "map-residual_wfe.svg", "summary.json", "sweep.csv"));
+  EXPECT_THAT(names_in("run"),
+              UnorderedElementsAreArray(with_closer_look(
+                  {"archive.sqlite", "best.cfg", "config.cfg", "map-cost.fits", "map-cost.png",
+                   "map-cost.svg", "map-fractional_loops.fits", "map-fractional_loops.png",
+                   "map-fractional_loops.svg", "map-residual_wfe.fits", "map-residual_wfe.png",
+                   "map-residual_wfe.svg", "summary.json", "sweep.csv"})));
   EXPECT_THAT(finished.output,
               AllOf(StartsWith("0.5 m telescope"), HasSubstr("12 designs at 12 points of a grid"),
                     HasSubstr("2 fresh"), EndsWith("Results are in run.\n")));
@@ -184,9 +186,14 @@ TEST_F(SweepStudy, HasNoPicturesWithoutGnuplotAndSaysSo) {
   const ProgramRun finished =
       run({"sweep", "--config", "tiny.cfg", "--output", "run"}, "PATH=/nowhere ");
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
-  EXPECT_THAT(finished.output, HasSubstr("note: there is no map-cost.svg: gnuplot: No such file"));
+  EXPECT_THAT(finished.output,
+              AllOf(HasSubstr("note: there is no map-cost.svg, map-residual_wfe.svg, "
+                              "map-fractional_loops.svg: gnuplot: No such file"),
+                    HasSubstr("note: there is no design.svg, ")));
   EXPECT_THAT(names_in("run"),
-              ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "summary.json", "sweep.csv"));
+              ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "loops.csv", "summary.json",
+                          "sweep.csv", "typical-images.fits", "typical-phases.fits",
+                          "worst-images.fits", "worst-phases.fits"));
 }
 
 TEST_F(SweepStudy, ADesignThatFailsLeavesAGap) {
