@@ -51,17 +51,26 @@ void write_keyword(fitsfile* file, const FitsKeyword& keyword) {
   check_fits(status);
 }
 
+/// Moves on to the next slice of the third axis, or to the first of the next set.
+void next_slice(std::array<LONGLONG, 4>& first, LONGLONG slices) {
+  if (first[2]++ < slices) return;
+  first[2] = 1;
+  ++first[3];
+}
+
 void write_image(fitsfile* file, const FitsCube& cube, const std::vector<FitsKeyword>& keywords) {
   int status = 0;
   const Eigen::Index rows = cube.slices.front().rows();
   const Eigen::Index columns = cube.slices.front().cols();
-  std::array<LONGLONG, 3> shape{columns, rows, static_cast<LONGLONG>(cube.slices.size())};
-  fits_create_imgll(file, DOUBLE_IMG, 3, shape.data(), &status);
+  const auto sets = static_cast<LONGLONG>(cube.sets);
+  const auto slices = static_cast<LONGLONG>(cube.slices.size()) / sets;
+  std::array<LONGLONG, 4> shape{columns, rows, slices, sets};
+  fits_create_imgll(file, DOUBLE_IMG, sets > 1 ? 4 : 3, shape.data(), &status);
   check_fits(status);
   write_keyword(file, {"BUNIT", cube.unit, "unit of the values"});
   for (const FitsKeyword& keyword : keywords) write_keyword(file, keyword);
 
-  std::array<LONGLONG, 3> first{1, 1, 1};
+  std::array<LONGLONG, 4> first{1, 1, 1, 1};
   for (const Image<double>& slice : cube.slices) {
     assert(slice.rows() == rows && slice.cols() == columns);
     // CFITSIO's interface takes the values as mutable, but only reads them.
@@ -69,7 +78,7 @@ void write_image(fitsfile* file, const FitsCube& cube, const std::vector<FitsKey
     auto* const values = const_cast<double*>(slice.data());
     fits_write_pixll(file, TDOUBLE, first.data(), slice.size(), values, &status);
     check_fits(status);
-    ++first[2];
+    next_slice(first, slices);
   }
 }
 
@@ -99,11 +108,14 @@ std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes) {
   return keywords;
 }
 
-FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key, FitsGaps gaps) {
+FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key, FitsGaps gaps,
+                        FitsShape allowed) {
   const auto refuse = [&](const std::string& why) {
-    throw InputError(
-        key, path.string(),
-        why + "; allowed is a FITS file whose first image is n x n x count (or n x n)");
+    throw InputError(key, path.string(),
+                     fmt::format("{}; allowed is a FITS file whose first image is {}", why,
+                                 allowed == FitsShape::square
+                                     ? "n x n x count (or n x n)"
+                                     : "columns x rows x planes (or with sets as fourth axis)"));
   };
   // Asked first, because CFITSIO would try the name with .gz and the like appended.
   std::error_code failure;
@@ -115,31 +127,36 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
     int status = 0;
     int dimensions = 0;
     int type = 0;
-    std::array<LONGLONG, 3> shape{0, 0, 1};
-    fits_get_img_paramll(file.get(), 3, &type, &dimensions, shape.data(), &status);
+    std::array<LONGLONG, 4> shape{0, 0, 1, 1};
+    fits_get_img_paramll(file.get(), 4, &type, &dimensions, shape.data(), &status);
     check_fits(status);
-    if (dimensions != 2 && dimensions != 3) refuse(fmt::format("NAXIS is {}", dimensions));
-    if (shape[0] != shape[1]) {
+    const int most_dimensions = allowed == FitsShape::square ? 3 : 4;
+    if (dimensions < 2 || dimensions > most_dimensions) {
+      refuse(fmt::format("NAXIS is {}", dimensions));
+    }
+    if (allowed == FitsShape::square && shape[0] != shape[1]) {
       refuse(fmt::format("its slices are {} x {}, not square", shape[0], shape[1]));
     }
-    if (shape[0] == 0 || shape[2] == 0) refuse("it is empty");
-    if (double(shape[0]) * double(shape[1]) * double(shape[2]) * sizeof(double) >
+    const LONGLONG slices = shape[2] * shape[3];
+    if (shape[0] == 0 || shape[1] == 0 || slices == 0) refuse("it is empty");
+    if (double(shape[0]) * double(shape[1]) * double(shape[2]) * double(shape[3]) * sizeof(double) >
         max_image_memory) {
       refuse(fmt::format("its {} x {} x {} values take more than {:g} GiB of memory", shape[0],
-                         shape[1], shape[2], max_image_memory / std::exp2(30)));
+                         shape[1], slices, max_image_memory / std::exp2(30)));
     }
+    cube.sets = static_cast<std::size_t>(shape[3]);
     cube.unit = read_unit(file.get());
 
-    std::array<LONGLONG, 3> first{1, 1, 1};
+    std::array<LONGLONG, 4> first{1, 1, 1, 1};
     double undefined = std::numeric_limits<double>::quiet_NaN();  // also what BLANK stands for
     int any_undefined = 0;  // not asked for, but CFITSIO writes to it
-    for (; first[2] <= shape[2]; ++first[2]) {
+    for (LONGLONG count = 1; count <= slices; ++count, next_slice(first, shape[2])) {
       Image<double> slice(shape[1], shape[0]);
       fits_read_pixll(file.get(), TDOUBLE, first.data(), slice.size(), &undefined, slice.data(),
                       &any_undefined, &status);
       check_fits(status);
       if (gaps == FitsGaps::refused && !slice.isFinite().all()) {
-        refuse(fmt::format("slice {} has values that are not finite", first[2]));
+        refuse(fmt::format("slice {} has values that are not finite", count));
       }
       cube.slices.push_back(std::move(slice));
     }
