@@ -49,30 +49,40 @@ void FresnelPropagator<Real>::propagate(Field<Real>& field, double distance) con
   for_each_row(field, samples(), 0, samples(),
                [&](const Sample* in, Sample* out) { transform_.forward(in, out); });
   const RowRange all{0, samples()};
-  propagate_transformed_rows(field, transfer(distance), all, all);
+  const LineFactors<Real> factors = transfer(distance);
+  propagate_transformed_rows(field, factors, factors, all, all);
   for_each_row(field, samples(), 0, samples(),
                [&](const Sample* in, Sample* out) { transform_.backward(in, out); });
   field *= Real(1) / static_cast<Real>(samples());
 }
 
 template <class Real>
-LineFactors<Real> FresnelPropagator<Real>::transfer(double distance) const {
-  return LineFactors<Real>(fresnel_transfer_function(samples(), pitch_, wavelength_, distance));
+LineFactors<Real> FresnelPropagator<Real>::transfer(double distance, double shift) const {
+  Eigen::ArrayXcd factors = fresnel_transfer_function(samples(), pitch_, wavelength_, distance);
+  if (shift != 0.0) {
+    const double phase_step = -2.0 * std::numbers::pi * shift / (samples() * pitch_);
+    for (int index = 0; index < samples(); ++index) {
+      const int frequency = index < samples() / 2 ? index : index - samples();
+      factors[index] *= std::polar(1.0, phase_step * frequency);
+    }
+  }
+  return LineFactors<Real>(factors);
 }
 
 template <class Real>
 void FresnelPropagator<Real>::propagate_transformed_rows(Field<Real>& field,
-                                                         const LineFactors<Real>& transfer,
+                                                         const LineFactors<Real>& transfer_x,
+                                                         const LineFactors<Real>& transfer_y,
                                                          RowRange lit, RowRange wanted) const {
   assert(field.rows() == samples() && field.cols() >= samples());
-  assert(transfer.length() == samples());
+  assert(transfer_x.length() == samples() && transfer_y.length() == samples());
   using Sample = std::complex<Real>;
   const Real column_norm = Real(1) / static_cast<Real>(samples());
   Eigen::ArrayX<Sample> spectrum(samples());
   for_each_column(field, lit, field, wanted, samples(),
                   [&](const Sample* in, Sample* out, Eigen::Index column) {
                     transform_.forward(in, spectrum.data());
-                    multiply_line(spectrum.data(), transfer, column_norm * transfer[column],
+                    multiply_line(spectrum.data(), transfer_y, column_norm * transfer_x[column],
                                   spectrum.data());
                     transform_.backward(spectrum.data(), out);
                   });

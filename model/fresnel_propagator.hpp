@@ -49,16 +49,20 @@ class FresnelPropagator {
   /// A distance of 0 is exactly the identity.
   void propagate(Field<Real>& field, double distance) const;
 
-  /// What propagate_transformed_rows needs of a distance (m, signed).
-  LineFactors<Real> transfer(double distance) const;
+  /// What propagate_transformed_rows needs of a distance (m, signed) along an axis where the field
+  /// is also moved by `shift` (m) towards larger coordinates, as by the shift theorem: exact on the
+  /// periodic grid, for fractions of a sample too.
+  LineFactors<Real> transfer(double distance, double shift = 0.0) const;
 
   /// The same as propagate on a field whose rows are Fourier transforms, before and after
   /// (row_transform().forward): for callers that have work to do on the rows while they are in
   /// cache.
+  /// @param transfer_x, transfer_y  along rows and along columns; the same without a shift
   /// @param lit     the rows that hold light; the others count as dark, whatever they hold
   /// @param wanted  the rows to make; the others keep what they hold
-  void propagate_transformed_rows(Field<Real>& field, const LineFactors<Real>& transfer,
-                                  RowRange lit, RowRange wanted) const;
+  void propagate_transformed_rows(Field<Real>& field, const LineFactors<Real>& transfer_x,
+                                  const LineFactors<Real>& transfer_y, RowRange lit,
+                                  RowRange wanted) const;
 
  private:
   LineTransform<Real> transform_;

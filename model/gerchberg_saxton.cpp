@@ -1,5 +1,7 @@
 #include "model/gerchberg_saxton.hpp"
 
+#include "model/detector.hpp"
+#include "model/image_gaps.hpp"
 #include "model/line_kernels.hpp"
 #include "model/loop_change.hpp"
 #include "model/sample_positions.hpp"
@@ -14,20 +16,23 @@ namespace nlcwfs {
 namespace {
 
 /// The wavefront slope (x, y; radians of angle) whose shift of the light's centroid, z times the
-/// slope, fits the images best in the least-squares sense.
+/// slope, fits the images best in the least-squares sense. Pixels that were not measured count as
+/// their neighbours do.
+/// @param axes  where the centroids of a flat wavefront are, pixels
 Eigen::Array2d centroid_slope(std::span<const Image<double>> images,
-                              const std::vector<double>& planes, double pixel_pitch) {
+                              const std::vector<double>& planes,
+                              const std::vector<Eigen::Array2d>& axes, double pixel_pitch) {
   Eigen::Array2d shift_moment = Eigen::Array2d::Zero();
   double distance_moment = 0.0;
   for (std::size_t plane = 0; plane < planes.size(); ++plane) {
-    const Image<double>& image = images[plane];
+    const Image<double> image = with_gaps_filled(images[plane]);
     const double light = image.sum();
     if (!(light > 0.0)) continue;
     const auto width = image.rows();
     const Eigen::ArrayXd position = sample_positions(width) * pixel_pitch;
     const double x = (image.colwise().sum().transpose() * position).sum() / light;
     const double y = (image.rowwise().sum() * position).sum() / light;
-    shift_moment += planes[plane] * Eigen::Array2d(x, y);
+    shift_moment += planes[plane] * (Eigen::Array2d(x, y) - axes[plane] * pixel_pitch);
     distance_moment += planes[plane] * planes[plane];
   }
   return distance_moment > 0.0 ? Eigen::Array2d(shift_moment / distance_moment)
@@ -37,8 +42,10 @@ Eigen::Array2d centroid_slope(std::span<const Image<double>> images,
 }  // namespace
 
 template <class Real>
-GerchbergSaxton<Real>::GerchbergSaxton(const Telescope& telescope, const SensorDesign& design)
+GerchbergSaxton<Real>::GerchbergSaxton(const Telescope& telescope, const SensorDesign& design,
+                                       const std::vector<Eigen::Array2d>& axes)
     : design_(design),
+      axes_(axes),
       wavelength_(telescope.wavelength),
       pitch_(telescope.diameter / design.pupil_samples()),
       mask_(pupil_mask(design.pupil_samples(), telescope.central_obscuration)),
@@ -47,14 +54,26 @@ GerchbergSaxton<Real>::GerchbergSaxton(const Telescope& telescope, const SensorD
       workspaces_([samples = propagator_.samples(), planes = design.planes.size()] {
         return Workspace{padded_lines<Real>(samples, samples), std::vector<Image<Real>>(planes)};
       }) {
+  const Eigen::Array2d middle = Eigen::Array2d::Zero();
+  if (axes_.empty()) axes_.assign(design.planes.size(), middle);
+  assert(axes_.size() == design.planes.size());
+  const double pixel_pitch = pitch_ * design.reconstruction.oversampling;
   double position = 0.0;
-  const auto hop_to = [&](double next) {
+  Eigen::Array2d axis = middle;
+  const auto hop_to = [&](double next, const Eigen::Array2d& next_axis) {
     hops_.emplace_back();
-    if (next != position) hops_.back() = propagator_.transfer(next - position);
+    if (next != position || (next_axis != axis).any()) {
+      const Eigen::Array2d shift = (next_axis - axis) * pixel_pitch;
+      hops_.back() = Hop{.along_x = propagator_.transfer(next - position, shift.x()),
+                         .along_y = propagator_.transfer(next - position, shift.y())};
+    }
     position = next;
+    axis = next_axis;
   };
-  for (const double plane : design.planes) hop_to(plane);
-  hop_to(0.0);
+  for (std::size_t plane = 0; plane < axes_.size(); ++plane) {
+    hop_to(design.planes[plane], axes_[plane]);
+  }
+  hop_to(0.0, middle);
 }
 
 template <class Real>
@@ -66,9 +85,17 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(
   Workspace& workspace = workspaces_.local();
   Field<Real>& field = workspace.field;
   std::vector<const Image<Real>*> measured(images.size());
+  std::vector<std::vector<Gap>> gaps(images.size());
   for (std::size_t plane = 0; plane < images.size(); ++plane) {
     assert(images[plane].rows() == design_.detector.width());
     assert(images[plane].cols() == design_.detector.width());
+    if (images[plane].hasNaN()) {
+      for (Eigen::Index row = 0; row < images[plane].rows(); ++row) {
+        for (Eigen::Index column = 0; column < images[plane].cols(); ++column) {
+          if (std::isnan(images[plane](row, column))) gaps[plane].push_back({row, column});
+        }
+      }
+    }
     if constexpr (std::is_same_v<Real, double>) {
       measured[plane] = &images[plane];
     } else {
@@ -98,13 +125,15 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(
     propagator_.transform_middle_rows(result.pupil_field, field);
     const auto hop = [&](std::size_t index, RowRange wanted) {
       if (!hops_[index]) return;
-      propagator_.propagate_transformed_rows(field, *hops_[index], lit, wanted);
+      propagator_.propagate_transformed_rows(field, hops_[index]->along_x, hops_[index]->along_y,
+                                             lit, wanted);
       lit = wanted;
       result.fft_count += 2;
     };
     for (std::size_t plane = 0; plane < measured.size(); ++plane) {
       hop(plane, plane_rows);
-      measure(field, *measured[plane], static_cast<Real>(options.relaxation(result.loops)));
+      measure(field, *measured[plane], gaps[plane],
+              static_cast<Real>(options.relaxation(result.loops)));
     }
     hop(measured.size(), pupil_rows);
     result.pupil_field = get_pupil(field);
@@ -120,11 +149,44 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(
 }
 
 template <class Real>
+std::vector<Image<double>> GerchbergSaxton<Real>::predict(const Field<double>& pupil) const {
+  const int oversampling = design_.reconstruction.oversampling;
+  const RowRange all_rows{0, propagator_.samples()};
+  const RowRange seen =
+      propagator_.middle_rows(Eigen::Index(design_.detector.width()) * oversampling);
+  Field<Real>& field = workspaces_.local().field;
+  field.setZero();
+  propagator_.transform_middle_rows(pupil, field);
+  Eigen::ArrayX<std::complex<Real>> line(propagator_.samples());
+  Field<double> window(seen.size(), seen.size());
+  std::vector<Image<double>> images;
+  for (std::size_t plane = 0; plane < design_.planes.size(); ++plane) {
+    if (hops_[plane]) {
+      propagator_.propagate_transformed_rows(field, hops_[plane]->along_x, hops_[plane]->along_y,
+                                             all_rows, all_rows);
+    }
+    for (Eigen::Index row = 0; row < seen.size(); ++row) {
+      propagator_.row_transform().backward(field.row(seen.first + row).data(), line.data());
+      window.row(row) = line.segment(seen.first, seen.size()).template cast<std::complex<double>>();
+    }
+    window /= double(propagator_.samples());
+    images.push_back(integrate_pixels(window, oversampling));
+  }
+  return images;
+}
+
+template <class Real>
+double GerchbergSaxton<Real>::pupil_energy() const {
+  const int oversampling = design_.reconstruction.oversampling;
+  return double(mask_.count()) / (oversampling * oversampling);
+}
+
+template <class Real>
 Field<double> GerchbergSaxton<Real>::first_estimate(std::span<const Image<double>> images) const {
   PhaseScreen phase = PhaseScreen::Zero(mask_.rows(), mask_.cols());
   if (design_.reconstruction.initial_guess == InitialGuess::centroid) {
     const Eigen::Array2d slope =
-        centroid_slope(images, design_.planes, pitch_ * design_.reconstruction.oversampling);
+        centroid_slope(images, design_.planes, axes_, pitch_ * design_.reconstruction.oversampling);
     const auto samples = mask_.rows();
     const Eigen::ArrayXd position =
         sample_positions(samples) * (2.0 * std::numbers::pi / wavelength_ * pitch_);
@@ -148,7 +210,7 @@ Field<double> GerchbergSaxton<Real>::get_pupil(const Field<Real>& field) const {
 
 template <class Real>
 void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& image,
-                                    Real relaxation) const {
+                                    std::span<const Gap> gaps, Real relaxation) const {
   const int width = propagator_.samples();
   const int oversampling = design_.reconstruction.oversampling;
   const auto pixels = static_cast<int>(image.rows());
@@ -160,6 +222,8 @@ void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& image
       design_.reconstruction.outside == OutsideDetector::zero ? Real(0) : row_norm;
   Field<Real> rows = padded_lines<Real>(oversampling, width);
   Eigen::ArrayX<Real> scratch(pixels);
+  std::vector<Field<Real>> kept;  // what is not measured in a row of pixels
+  auto gap = gaps.begin();
   for (int pixel_row = 0; pixel_row < pixels; ++pixel_row) {
     const Eigen::Index first = border + Eigen::Index(pixel_row) * oversampling;
     for (int row = 0; row < oversampling; ++row) {
@@ -167,8 +231,17 @@ void GerchbergSaxton<Real>::measure(Field<Real>& field, const Image<Real>& image
     }
     rows.leftCols(border) *= outside_gain;
     rows.middleCols(width - border, border) *= outside_gain;
+    const auto first_gap = gap;
+    const auto field_at = [&](const Gap& pixel) {
+      return rows.block(0, border + pixel.column * oversampling, oversampling, oversampling);
+    };
+    kept.clear();
+    for (; gap != gaps.end() && gap->row == pixel_row; ++gap) {
+      kept.emplace_back(field_at(*gap) * row_norm);
+    }
     replace_amplitudes(rows.data() + border, rows.cols(), oversampling, row_norm,
                        image.row(pixel_row).data(), relaxation, scratch.data(), pixels);
+    for (std::size_t i = 0; i < kept.size(); ++i) field_at(first_gap[i]) = kept[i];
     for (int row = 0; row < oversampling; ++row) {
       transform.forward(rows.row(row).data(), field.row(first + row).data());
     }

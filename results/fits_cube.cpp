@@ -52,6 +52,14 @@ void write_keyword(fitsfile* file, const FitsKeyword& keyword) {
   check_fits(status);
 }
 
+/// Moves on to the next slice: along the third axis, after its end along the fourth.
+void next_slice(std::vector<LONGLONG>& first, const std::vector<LONGLONG>& shape) {
+  for (std::size_t axis = 2; axis < shape.size(); ++axis) {
+    if (first[axis]++ < shape[axis]) return;
+    first[axis] = 1;
+  }
+}
+
 /// @param shape   the lengths of the axes, axis 1 first
 /// @param slices  of the image, in the order of its pixels
 void write_image(fitsfile* file, std::vector<LONGLONG> shape, const std::string& unit,
@@ -70,7 +78,7 @@ void write_image(fitsfile* file, std::vector<LONGLONG> shape, const std::string&
     auto* const values = const_cast<double*>(slice.data());
     fits_write_pixll(file, TDOUBLE, first.data(), slice.size(), values, &status);
     check_fits(status);
-    ++first.back();
+    next_slice(first, shape);
   }
 }
 
@@ -139,11 +147,14 @@ std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes, int fi
   return keywords;
 }
 
-FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key, FitsGaps gaps) {
+FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key, FitsGaps gaps,
+                        FitsShape allowed) {
   const auto refuse = [&](const std::string& why) {
-    throw InputError(
-        key, path.string(),
-        why + "; allowed is a FITS file whose first image is n x n x count (or n x n)");
+    throw InputError(key, path.string(),
+                     fmt::format("{}; allowed is a FITS file whose first image is {}", why,
+                                 allowed == FitsShape::square
+                                     ? "n x n x count (or n x n)"
+                                     : "columns x rows x planes (or with sets as fourth axis)"));
   };
   // Asked first, because CFITSIO would try the name with .gz and the like appended.
   std::error_code failure;
@@ -155,31 +166,36 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
     int status = 0;
     int dimensions = 0;
     int type = 0;
-    std::array<LONGLONG, 3> shape{0, 0, 1};
-    fits_get_img_paramll(file.get(), 3, &type, &dimensions, shape.data(), &status);
+    std::array<LONGLONG, 4> shape{0, 0, 1, 1};
+    fits_get_img_paramll(file.get(), 4, &type, &dimensions, shape.data(), &status);
     check_fits(status);
-    if (dimensions != 2 && dimensions != 3) refuse(fmt::format("NAXIS is {}", dimensions));
-    if (shape[0] != shape[1]) {
+    const int most_dimensions = allowed == FitsShape::square ? 3 : 4;
+    if (dimensions < 2 || dimensions > most_dimensions) {
+      refuse(fmt::format("NAXIS is {}", dimensions));
+    }
+    if (allowed == FitsShape::square && shape[0] != shape[1]) {
       refuse(fmt::format("its slices are {} x {}, not square", shape[0], shape[1]));
     }
-    if (shape[0] == 0 || shape[2] == 0) refuse("it is empty");
-    if (double(shape[0]) * double(shape[1]) * double(shape[2]) * sizeof(double) >
+    const LONGLONG slices = shape[2] * shape[3];
+    if (shape[0] == 0 || shape[1] == 0 || slices == 0) refuse("it is empty");
+    if (double(shape[0]) * double(shape[1]) * double(shape[2]) * double(shape[3]) * sizeof(double) >
         max_image_memory) {
       refuse(fmt::format("its {} x {} x {} values take more than {:g} GiB of memory", shape[0],
-                         shape[1], shape[2], max_image_memory / std::exp2(30)));
+                         shape[1], slices, max_image_memory / std::exp2(30)));
     }
+    cube.sets = static_cast<std::size_t>(shape[3]);
     cube.unit = read_unit(file.get());
 
-    std::array<LONGLONG, 3> first{1, 1, 1};
+    std::array<LONGLONG, 4> first{1, 1, 1, 1};
     double undefined = std::numeric_limits<double>::quiet_NaN();  // also what BLANK stands for
     int any_undefined = 0;  // not asked for, but CFITSIO writes to it
-    for (; first[2] <= shape[2]; ++first[2]) {
+    for (LONGLONG count = 1; count <= slices; ++count, next_slice(first, shape[2])) {
       Image<double> slice(shape[1], shape[0]);
       fits_read_pixll(file.get(), TDOUBLE, first.data(), slice.size(), &undefined, slice.data(),
                       &any_undefined, &status);
       check_fits(status);
       if (gaps == FitsGaps::refused && !slice.isFinite().all()) {
-        refuse(fmt::format("slice {} has values that are not finite", first[2]));
+        refuse(fmt::format("slice {} has values that are not finite", count));
       }
       cube.slices.push_back(std::move(slice));
     }
@@ -193,10 +209,11 @@ void write_fits_cube(const std::filesystem::path& path, const FitsCube& cube,
                      const std::vector<FitsKeyword>& keywords) {
   assert(!cube.slices.empty() && cube.slices.front().size() > 0);
   const Image<double>& slice = cube.slices.front();
-  write_new_fits_file(path, [&](fitsfile* file) {
-    write_image(file, {slice.cols(), slice.rows(), static_cast<LONGLONG>(cube.slices.size())},
-                cube.unit, keywords, cube.slices);
-  });
+  std::vector<LONGLONG> shape{slice.cols(), slice.rows(),
+                              static_cast<LONGLONG>(cube.slices.size() / cube.sets)};
+  if (cube.sets > 1) shape.push_back(static_cast<LONGLONG>(cube.sets));
+  write_new_fits_file(
+      path, [&](fitsfile* file) { write_image(file, shape, cube.unit, keywords, cube.slices); });
 }
 
 void write_fits_map(const std::filesystem::path& path, const FitsMap& map) {

@@ -15,7 +15,9 @@ namespace nlcwfs {
 struct FitsCube {
   std::string unit;  ///< BUNIT as the file has it; empty where it has none
   std::vector<Image<double>>
-      slices;  ///< FITS axis 1 = column (x), axis 2 = row (y), axis 3 = slice
+      slices;            ///< FITS axis 1 = column (x), axis 2 = row (y), axis 3 = slice
+  std::size_t sets = 1;  ///< FITS axis 4: the slices are those of the first set, then those of the
+                         ///< second, ..., as many in each
 };
 
 /// A card of a FITS header.
@@ -47,18 +49,25 @@ std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes, int fi
 /// Whether samples may have no value, which is NaN.
 enum class FitsGaps { refused, allowed };
 
-/// Reads the image of a file's first HDU: n x n x count, or n x n, which is one slice. The path is
-/// taken literally, without CFITSIO's extended file name syntax.
+/// What the images of a file may be.
+enum class FitsShape {
+  square,  ///< n x n x count
+  frames   ///< columns x rows x count x sets
+};
+
+/// Reads the image of a file's first HDU: as its shape says, where axes that are missing at the end
+/// count 1. The path is taken literally, without CFITSIO's extended file name syntax.
 /// @param key  the configuration key that named the file, for the error
 /// @throws InputError where the file is missing or unreadable, or its image has another shape or
 ///         values that are not finite
 FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
-                        FitsGaps gaps = FitsGaps::refused);
+                        FitsGaps gaps = FitsGaps::refused, FitsShape shape = FitsShape::square);
 
-/// Writes 64-bit floating-point values with BUNIT and `keywords` in the header. Until it is
+/// Writes 64-bit floating-point values with BUNIT and `keywords` in the header, on three axes or,
+/// where there are several sets, four. Until it is
 /// complete the file has the name `path` with `.part` appended; an existing file is never
 /// overwritten. The path is taken literally.
-/// @pre at least one slice, all of one size, not empty
+/// @pre at least one slice, all of one size, not empty; as many in each set
 /// @throws std::runtime_error with the path and the cause where the file exists or cannot be
 /// written
 void write_fits_cube(const std::filesystem::path& path, const FitsCube& cube,

@@ -174,6 +174,16 @@ LogLevel parse_log_level(const std::string& value) {
   return level->second;
 }
 
+/// An option of one command that stands for a key of the configuration.
+struct ShortForm {
+  std::string option;
+  std::string command;
+  std::string key;
+};
+
+const std::vector<ShortForm> short_forms{{"figure", "reproduce", "reproduce.figures"},
+                                         {"frames", "reconstruct", "frames.file"}};
+
 int parse_threads(const std::string& value) {
   const auto threads = parse_integer(value);
   if (!threads || *threads < 0 || *threads > 4096) {
@@ -195,7 +205,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine result;
   std::optional<std::string> preset;
   std::vector<std::string> files;
-  std::vector<std::string> figures;
+  std::map<std::string, std::vector<std::string>> short_values;
   std::vector<std::pair<std::string, std::string>> values;
   std::set<std::string> seen;
   for (const po::option& option : parse_options(argc, argv, known)) {
@@ -219,8 +229,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       refuse_missing_value("--" + key);
     } else if (key == "config") {
       files.push_back(value);
-    } else if (key == "figure") {
-      figures.push_back(value);
+    } else if (std::ranges::count(short_forms, key, &ShortForm::option) > 0) {
+      short_values[key].push_back(value);
     } else if (key == "preset") {
       preset = value;
     } else if (key == "output") {
@@ -241,18 +251,20 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   }
   if (result.help || result.version) return result;
   require_whole_command(result);
-  if (!figures.empty()) {
-    const std::string list = fmt::format("{}", fmt::join(figures, ","));
-    if (result.command != "reproduce") {
+  for (const ShortForm& form : short_forms) {
+    if (!short_values.contains(form.option)) continue;
+    const std::string list = fmt::format("{}", fmt::join(short_values[form.option], ","));
+    const std::string shown = one_line(fmt::format("--{} {}", form.option, list));
+    if (result.command != form.command) {
       throw InputError(
-          "command line", one_line("--figure " + list),
-          fmt::format("only reproduce takes it; leave it away with {}", result.command));
+          "command line", shown,
+          fmt::format("only {} takes it; leave it away with {}", form.command, result.command));
     }
-    if (seen.contains("reproduce.figures")) {
-      throw InputError("command line", one_line("--figure " + list),
-                       "reproduce.figures is given too; keep one of them");
+    if (seen.contains(form.key)) {
+      throw InputError("command line", shown,
+                       fmt::format("{} is given too; keep one of them", form.key));
     }
-    values.emplace_back("reproduce.figures", list);
+    values.emplace_back(form.key, list);
   }
   if (result.resume) {
     const bool configured = preset || !files.empty() || !values.empty() || result.output;

@@ -66,6 +66,17 @@ const std::vector<Command>& commands() {
        .keys = joined({site, simulation, judgement, {"response"}}),
        .examples =
            {"nlcwfs response --response.distances 1km:200km:20:log --detector.photons 1e7"}},
+      {.name = "reconstruct",
+       .group = one_design,
+       .description =
+           "reconstruct the wavefronts of measured detector frames, and say whether they agree",
+       .about = "Calibrates the frames of the section frames, runs the loop of the section "
+                "reconstruction on them, and writes the phases as phase.fits, which can be the "
+                "screens.file of the other commands. What the phases predict for each plane is "
+                "held against what was measured there.",
+       .keys = joined({site, {"frames", "sensor", "detector", "reconstruction"}}),
+       .examples = {"nlcwfs reconstruct --frames frames.fits "
+                    "--sensor.planes=-180km,180km,-47km,47km --frames.background dark.fits"}},
       {.name = "screens",
        .group = one_design,
        .description = "make phase screens: a FITS cube and its statistics",

@@ -201,6 +201,45 @@ std::vector<ConfigurationKey> make_keys() {
            "which the reconstruction visits them. Not set: these, at their Fresnel numbers "
            "of the paper's telescope."},
 
+      {.name = "frames.file",
+       .kind = Kind::text,
+       .description =
+           "Measured detector frames for the command reconstruct, a FITS file: columns x rows x "
+           "planes in the order of sensor.planes, and where there are several sets of frames a "
+           "fourth axis. In any unit; values that are not finite count as bad pixels.",
+       .example = "frames.fits"},
+      {.name = "frames.background",
+       .kind = Kind::text,
+       .default_text = "0",
+       .description =
+           "What the frames have without light, in their unit, which is subtracted: a number, or a "
+           "FITS file of one image for all planes, one for each, or as many as there are frames.",
+       .example = "100 or dark.fits"},
+      {.name = "frames.bad_pixels",
+       .kind = Kind::text,
+       .description = "FITS file that is not 0 where a pixel is bad, one image for all planes or "
+                      "one for each. What bad pixels would have seen is left open.",
+       .example = "bad-pixels.fits"},
+      {.name = "frames.saturation",
+       .kind = Kind::number,
+       .description = "Value of the frames from which on a pixel counts as bad. Not set: none.",
+       .bounds = above(0),
+       .example = "65000"},
+      {.name = "frames.centre",
+       .kind = Kind::number_list,
+       .description =
+           "Where the optical axis meets each plane's frame, x1,y1,x2,y2,... in pixels as FITS "
+           "counts them: the middle of the first is 1. Not set: the middle of the frames. Frames "
+           "are not resampled: the light is brought to their pixels.",
+       .unit = "pixels",
+       .example = "128.5,128.5,130.2,127.9"},
+      {.name = "frames.flux",
+       .kind = Kind::number_list,
+       .description = "How much light each plane got, relative to the others, as of a beam "
+                      "splitter. Not set: not known, each plane's is found with the wavefront.",
+       .bounds = above(0),
+       .example = "1,1,0.8,0.8"},
+
       {.name = "detector.pupil_pixels",
        .kind = Kind::integer,
        .default_text = "64",

@@ -31,6 +31,8 @@ const std::vector<ProgramOption>& program_options() {
        "run only this figure of the paper, or another part that reproduce.figures knows; may be "
        "given several times",
        [](const Command& command) { return command.name == "reproduce"; }},
+      {"frames", "FILE", "read the measured frames of this FITS file, as frames.file",
+       [](const Command& command) { return command.name == "reconstruct"; }},
       {"verify", "", "simulate the design on fresh screens, as the section verify says",
        [](const Command& command) { return command.name == "advise"; }},
       {"threads", "N", "use this many cores, 0 = all [0]", is_of_all},

@@ -1,7 +1,9 @@
 #include "studies/settings.hpp"
 
 #include "model/grid_width.hpp"
+#include "model/image_gaps.hpp"
 #include "model/input_error.hpp"
+#include "model/pupil.hpp"
 #include "model/screen_resampling.hpp"
 #include "model/turbulence_screen.hpp"
 #include "results/fits_cube.hpp"
@@ -78,7 +80,7 @@ int verification_screens(const Configuration& configuration) {
 
 std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
                                            int samples, std::vector<std::string>& notes) {
-  FitsCube cube = read_fits_cube(file, "screens.file");
+  FitsCube cube = read_fits_cube(file, "screens.file", FitsGaps::allowed);
   double radians_per_unit = 1.0;
   if (cube.unit == "m") {
     radians_per_unit = 2.0 * std::numbers::pi / telescope.wavelength;
@@ -93,8 +95,14 @@ std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telesc
     notes.push_back(fmt::format("{}: {} x {} samples were resampled to the truth's {} x {}", file,
                                 size, size, samples, samples));
   }
+  const PupilMask pupil = pupil_mask(size, telescope.central_obscuration);
   for (Image<double>& screen : cube.slices) {
-    screen *= radians_per_unit;
+    if (!(screen.isFinite() || (screen.isNaN() && !pupil)).all()) {
+      throw InputError("screens.file", file,
+                       "has values that are not finite; only outside the pupil may there be none");
+    }
+    // Continued beyond the pupil, so that what is resampled at its edge comes from within.
+    screen = with_gaps_filled(screen) * radians_per_unit;
     if (size != samples) screen = resampled_screen(screen, samples);
   }
   return std::move(cube.slices);

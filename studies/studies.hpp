@@ -54,6 +54,10 @@ void run_law(const CommandLine& command_line);
 /// A design moved to another telescope at constant Fresnel numbers.
 void run_scale(const CommandLine& command_line);
 
+/// The wavefronts of measured detector frames, and how well what they predict agrees with what was
+/// measured.
+void run_reconstruct(const CommandLine& command_line);
+
 /// Phase screens as a FITS cube, with their statistics.
 void run_screens(const CommandLine& command_line);
 

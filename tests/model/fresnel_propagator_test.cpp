@@ -111,5 +111,37 @@ TEST(FresnelPropagator, AWeakSinusoidalPhaseShowsTheAnalyticContrast) {
   }
 }
 
+/// A Gaussian beam whose samples hold all of its spectrum, about (x, y) in samples from the middle.
+Field<double> gaussian(int samples, double x, double y) {
+  const Eigen::ArrayXd position = Eigen::ArrayXd::LinSpaced(samples, 0, samples - 1) - samples / 2;
+  const Eigen::ArrayXd column = (-(position - y).square() / 50.0).exp();
+  const Eigen::ArrayXd row = (-(position - x).square() / 50.0).exp();
+  return (column.matrix() * row.matrix().transpose()).array().cast<std::complex<double>>();
+}
+
+TEST(FresnelPropagator, MovesAFieldByFractionsOfASample) {
+  const int samples = 128;
+  const FresnelPropagator<double> propagator(samples, pitch, wavelength);
+  const auto moved = [&](double distance, double x, double y) {
+    Field<double> field = gaussian(samples, 0.0, 0.0);
+    const auto& transform = propagator.row_transform();
+    using Sample = std::complex<double>;
+    const auto rows = [&](const auto& operation) {
+      for_each_row(field, samples, 0, samples, operation);
+    };
+    rows([&](const Sample* in, Sample* out) { transform.forward(in, out); });
+    const RowRange all{0, samples};
+    propagator.propagate_transformed_rows(field, propagator.transfer(distance, x * pitch),
+                                          propagator.transfer(distance, y * pitch), all, all);
+    rows([&](const Sample* in, Sample* out) { transform.backward(in, out); });
+    return Field<double>(field / double(samples));
+  };
+  for (const double distance : {0.0, 20e3}) {
+    Field<double> expected = gaussian(samples, 3.25, -7.6);
+    propagator.propagate(expected, distance);
+    EXPECT_LT((moved(distance, 3.25, -7.6) - expected).abs().maxCoeff(), 1e-9) << distance;
+  }
+}
+
 }  // namespace
 }  // namespace nlcwfs

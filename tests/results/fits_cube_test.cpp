@@ -346,5 +346,26 @@ TEST_F(FitsCubeFile, ReplacesWhatAKilledRunLeft) {
   EXPECT_EQ(files(), 1);
 }
 
+TEST_F(FitsCubeFile, KeepsSetsOfFramesThatAreNotSquare) {
+  FitsCube frames{.unit = "adu", .slices = {}, .sets = 2};
+  for (int i = 0; i < 6; ++i) {
+    Image<double> slice = Image<double>::Random(2, 5);
+    slice(1, 3) = i == 4 ? std::nan("") : double(i);
+    frames.slices.push_back(slice);
+  }
+  write_fits_cube("frames.fits", frames);
+  EXPECT_THAT(contents("frames.fits"), HasSubstr("NAXIS4  =                    2"));
+  const FitsCube read =
+      read_fits_cube("frames.fits", "frames.file", FitsGaps::allowed, FitsShape::frames);
+  EXPECT_EQ(read.sets, 2u);
+  ASSERT_EQ(read.slices.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Image<double>& expected = frames.slices[i];
+    EXPECT_TRUE((read.slices[i].isNaN() == expected.isNaN()).all());
+    EXPECT_TRUE((expected.isNaN() || read.slices[i] == expected).all()) << i;
+  }
+  EXPECT_THAT(refusal("frames.fits"), HasSubstr("NAXIS is 4"));
+}
+
 }  // namespace
 }  // namespace nlcwfs

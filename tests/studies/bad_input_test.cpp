@@ -38,10 +38,10 @@ class BadInput : public Program {
 TEST_F(BadInput, OfTheCommandLine) {
   expect_refused("evaluate", {"--detector.pupil_pixel", "16"},
                  "command line = --detector.pupil_pixel", "did you mean --detector.pupil_pixels?");
-  expect_refused(
-      "optimise", {}, "command = optimise",
-      "one of evaluate, convergence, response, screens, scale, sweep, optimize, compare, trade, "
-      "law, advise, reproduce, benchmark; did you mean optimize?");
+  expect_refused("optimise", {}, "command = optimise",
+                 "one of evaluate, convergence, response, reconstruct, screens, scale, sweep, "
+                 "optimize, compare, trade, "
+                 "law, advise, reproduce, benchmark; did you mean optimize?");
   expect_refused("evaluate", {"optimize"}, "command line = optimize", "nothing may follow");
   expect_refused("evaluate", {"--screens.count"}, "screens.count = (nothing)", "a whole number");
   expect_refused("evaluate", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");
@@ -319,7 +319,7 @@ TEST_F(BadInput, OfFilesOfScreens) {
   save("unit.fits", Image<double>::Zero(32, 32), "nm");
   expect_file_refused("unit.fits", "BUNIT must be 'rad' or 'm', but is 'nm'");
   Image<double> with_nan = Image<double>::Zero(32, 32);
-  with_nan(3, 4) = std::nan("");
+  with_nan(13, 14) = std::nan("");
   save("nan.fits", with_nan, "rad");
   expect_file_refused("nan.fits", "values that are not finite");
 }

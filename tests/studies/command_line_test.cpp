@@ -107,16 +107,17 @@ TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
 
 TEST(CommandLine, AsksForACommand) {
   const std::string message =
-      "command = (nothing): one of evaluate, convergence, response, screens, scale, sweep, "
-      "optimize, compare, trade, law, advise, reproduce, benchmark; "
+      "command = (nothing): one of evaluate, convergence, response, reconstruct, screens, "
+      "scale, sweep, optimize, compare, trade, law, advise, reproduce, benchmark; "
       "nlcwfs --help explains them";
   EXPECT_EQ(parse_message({}), message);
   EXPECT_EQ(parse_message({"--quiet"}), message);
   EXPECT_EQ(message_of([] { parse_command_line(0, std::vector<const char*>{nullptr}.data()); }),
             message);
   EXPECT_EQ(parse_message({"optimise"}),
-            "command = optimise: one of evaluate, convergence, response, screens, scale, sweep, "
-            "optimize, compare, trade, law, advise, reproduce, benchmark; did you mean optimize?");
+            "command = optimise: one of evaluate, convergence, response, reconstruct, screens, "
+            "scale, sweep, optimize, compare, trade, law, advise, reproduce, benchmark; did you "
+            "mean optimize?");
   EXPECT_THAT(parse_message({""}), StartsWith("command = (nothing): one of "));
 }
 
@@ -209,6 +210,8 @@ TEST(CommandLine, FiguresOfAReproductionAddUp) {
   EXPECT_EQ(parse_message({"reproduce", "--figure", "3", "--reproduce.figures", "4"}),
             "command line = --figure 3: reproduce.figures is given too; keep one of them");
   EXPECT_THAT(parse_message({"reproduce", "--figure"}), HasSubstr("a value must follow"));
+  EXPECT_EQ(parse({"reconstruct", "--frames", "a.fits"}).configuration.text("frames.file"),
+            "a.fits");
 }
 
 TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "model/array.hpp"
+
+namespace nlcwfs {
+
+/// The image with a value wherever it has none (NaN): ring by ring from the edge of a gap inwards,
+/// each sample gets the mean of those of its eight neighbours that have a value. An image without
+/// any value stays as it is.
+Image<double> with_gaps_filled(Image<double> image);
+
+}  // namespace nlcwfs
