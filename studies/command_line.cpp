@@ -131,7 +131,10 @@ void require_whole_command(const CommandLine& command_line) {
   const std::size_t given = command_line.arguments.size();
   if (given == command.arguments.size() || command_line.dump_config) return;
   throw InputError("command line", given == 0 ? one_line("") : one_line(command_line.arguments[0]),
-                   fmt::format("{} folders must follow {}: nlcwfs {}", command.arguments.size(),
+                   fmt::format("{} must follow {}: nlcwfs {}",
+                               command.arguments.size() == 1
+                                   ? "one folder"
+                                   : fmt::format("{} folders", command.arguments.size()),
                                command.name, fmt::join(usage_words(command), " ")));
 }
 

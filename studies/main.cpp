@@ -48,13 +48,13 @@ void run(int argc, const char* const* argv) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   static const std::map<std::string, std::function<void(const CommandLine&)>> studies{
-      {"advise", run_advise},     {"benchmark", run_benchmark},
-      {"compare", run_compare},   {"convergence", run_convergence},
-      {"evaluate", run_evaluate}, {"law", run_law},
-      {"optimize", run_optimize}, {"reproduce", run_reproduce},
-      {"response", run_response}, {"scale", run_scale},
-      {"screens", run_screens},   {"sweep", run_sweep},
-      {"trade", run_trade}};
+      {"advise", run_advise},       {"benchmark", run_benchmark},
+      {"compare", run_compare},     {"convergence", run_convergence},
+      {"evaluate", run_evaluate},   {"law", run_law},
+      {"optimize", run_optimize},   {"report", run_report},
+      {"reproduce", run_reproduce}, {"response", run_response},
+      {"scale", run_scale},         {"screens", run_screens},
+      {"sweep", run_sweep},         {"trade", run_trade}};
   studies.at(command_line.command)(command_line);
 }
 
