@@ -131,9 +131,11 @@ void require_whole_command(const CommandLine& command_line) {
   const std::size_t given = command_line.arguments.size();
   if (given == command.arguments.size() || command_line.dump_config) return;
   throw InputError("command line", given == 0 ? one_line("") : one_line(command_line.arguments[0]),
-                   fmt::format("{} folder{} must follow {}: nlcwfs {}", command.arguments.size(),
-                               command.arguments.size() == 1 ? "" : "s", command.name,
-                               fmt::join(usage_words(command), " ")));
+                   fmt::format("{} must follow {}: nlcwfs {}",
+                               command.arguments.size() == 1
+                                   ? "one folder"
+                                   : fmt::format("{} folders", command.arguments.size()),
+                               command.name, fmt::join(usage_words(command), " ")));
 }
 
 /// The configuration of the run to go on with.

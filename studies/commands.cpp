@@ -26,6 +26,7 @@ Keys joined(std::initializer_list<Keys> lists) {
 constexpr const char* one_design = "One design";
 constexpr const char* best_designs = "The best design";
 constexpr const char* laws = "Laws and scaling";
+constexpr const char* results = "Results of a run";
 constexpr const char* others = "The paper and this machine";
 constexpr const char* files = "Files of a run";
 
@@ -151,6 +152,15 @@ const std::vector<Command>& commands() {
        .keys = joined({site, {"sensor", "source", "detector", "reconstruction", "scale"}}),
        .examples = {"nlcwfs scale --config results/optimize-1/best.cfg --scale.diameter 8.2 "
                     "--scale.relay_beam_diameter 10mm"}},
+      {.name = "report",
+       .group = results,
+       .description = "make the page report.html of a run's folder again",
+       .about = "Every run leaves report.html, a page that shows its results in a browser. This "
+                "makes it anew from the files that are in the folder, also where some are missing "
+                "or another version has written them, and says so. It writes nothing else.",
+       .keys = {},
+       .examples = {"nlcwfs report results/optimize-1"},
+       .arguments = {"DIR"}},
       {.name = "reproduce",
        .group = others,
        .description =

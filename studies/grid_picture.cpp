@@ -181,6 +181,16 @@ void write_grid_map(const Json& grid, const std::string& figure, const std::stri
   write_fits_map(path, map);
 }
 
+std::vector<double> grid_place(const Json& grid, const SensorDesign& design) {
+  const std::vector<std::string> orders = grid.at("orders");
+  std::vector<double> place;
+  for (const Json& json : grid.at("axes")) {
+    const GridPictureAxis axis(json);
+    place.push_back(axis.place_of(design, orders) * axis.unit);
+  }
+  return place;
+}
+
 std::optional<std::string> write_grid_picture(const std::string& title, const Json& grid,
                                               const std::string& figure, const CostedDesign& best,
                                               const std::filesystem::path& stem,

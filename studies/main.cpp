@@ -60,6 +60,7 @@ void run(int argc, const char* const* argv) {
       {"law", run_law},
       {"optimize", run_optimize},
       {"reconstruct", run_reconstruct},
+      {"report", run_report},
       {"reproduce", run_reproduce},
       {"response", run_response},
       {"scale", run_scale},

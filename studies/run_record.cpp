@@ -1,5 +1,6 @@
 #include "studies/run_record.hpp"
 
+#include "studies/report_study.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -34,12 +35,20 @@ void RunRecord::write_summary(const nlohmann::ordered_json& results) const {
                                  {"config", config}};
   summary.update(results);
   folder_.write("summary.json", summary.dump(2) + "\n");
+  if (command_line_.silent) return;
+  try {
+    write_report(folder_.path());
+  } catch (const std::exception& error) {
+    fmt::print("note: there is no report.html: {}\n", error.what());
+  }
 }
 
 void RunRecord::close() const {
   if (!interruption_.empty()) {
     print("Interrupted when {}: the results are of these.\n", interruption_);
   }
+  const std::filesystem::path page = folder_.file("report.html");
+  if (std::filesystem::exists(page)) print("Open {} in a browser.\n", page.string());
   print("Results are in {}.\n", folder_.path().string());
   if (!interruption_.empty()) throw RunInterrupted();
 }

@@ -32,7 +32,8 @@ class RunRecord {
   void note_interrupted(const std::string& what);
 
   /// Writes summary.json: command, version, whether the run was interrupted, config (every key with
-  /// its text, null where not set), then `results`.
+  /// its text, null where not set), then `results`. From it and the files that are there already it
+  /// makes report.html, unless the run is a silent part of another: call it last.
   void write_summary(const nlohmann::ordered_json& results) const;
 
   /// Prints on standard output, unless the run is a silent part of another.
@@ -41,8 +42,9 @@ class RunRecord {
     if (!command_line_.silent) fmt::print(format, std::forward<Values>(values)...);
   }
 
-  /// Prints where the results are: "Results are in results/optimize-1."
-  /// @throws RunInterrupted where that was noted
+  /// Prints where the results are: "Open results/optimize-1/report.html in a browser.", where it is
+  /// there, and "Results are in results/optimize-1."
+  /// @throws RunInterrupted where an interrupt was noted
   void close() const;
 
  private:

@@ -71,10 +71,10 @@ TEST_F(SweepStudy, LeavesItsFiles) {
   const ProgramRun finished = done("sweep", "run", grid);
   EXPECT_THAT(names_in("run"),
               UnorderedElementsAreArray(with_closer_look(
-                  {"archive.sqlite", "best.cfg", "config.cfg", "map-cost.fits", "map-cost.png",
-                   "map-cost.svg", "map-fractional_loops.fits", "map-fractional_loops.png",
-                   "map-fractional_loops.svg", "map-residual_wfe.fits", "map-residual_wfe.png",
-                   "map-residual_wfe.svg", "summary.json", "sweep.csv"})));
+                  {"archive.sqlite", "best.cfg", "config.cfg", "report.html", "map-cost.fits",
+                   "map-cost.png", "map-cost.svg", "map-fractional_loops.fits",
+                   "map-fractional_loops.png", "map-fractional_loops.svg", "map-residual_wfe.fits",
+                   "map-residual_wfe.png", "map-residual_wfe.svg", "summary.json", "sweep.csv"})));
   EXPECT_THAT(finished.output,
               AllOf(StartsWith("0.5 m telescope"), HasSubstr("12 designs at 12 points of a grid"),
                     HasSubstr("2 fresh"), EndsWith("Results are in run.\n")));
@@ -191,8 +191,8 @@ TEST_F(SweepStudy, HasNoPicturesWithoutGnuplotAndSaysSo) {
                               "map-fractional_loops.svg: gnuplot: No such file"),
                     HasSubstr("note: there is no design.svg, ")));
   EXPECT_THAT(names_in("run"),
-              ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "loops.csv", "summary.json",
-                          "sweep.csv", "typical-images.fits", "typical-phases.fits",
+              ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "loops.csv", "report.html",
+                          "summary.json", "sweep.csv", "typical-images.fits", "typical-phases.fits",
                           "worst-images.fits", "worst-phases.fits"));
 }
 
