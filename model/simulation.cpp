@@ -8,6 +8,7 @@
 #include "model/wrap_free_propagator.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <cmath>
@@ -150,17 +151,24 @@ template <class Real>
 Performance run_screens(const Telescope& telescope, const SensorDesign& design,
                         const SimulationOptions& options, const PupilMask& truth_mask,
                         const std::vector<PhaseScreen>& screens, std::size_t first,
-                        std::size_t count, bool follows_loops, ImageCache& images) {
+                        std::size_t count, bool follows_loops, const ScreenWatch& watch,
+                        ImageCache& images) {
   const Experiment<Real> experiment(telescope, design, options, truth_mask, images);
   Performance performance;
   performance.screens.resize(count);
-  // One screen at a time: they take different numbers of loops.
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> is_ended = false;
+  // One screen at a time: they take different numbers of loops. Whoever is free takes the next one.
   tbb::parallel_for(
       std::size_t{0}, count,
-      [&](std::size_t i) {
+      [&](std::size_t) {
+        if (is_ended) return;
+        const std::size_t i = next++;
         performance.screens[i] = experiment.run(screens[first + i], first + i, follows_loops);
+        if (watch && !watch()) is_ended = true;
       },
       tbb::simple_partitioner());
+  performance.screens.resize(next);
   return performance;
 }
 
@@ -247,18 +255,20 @@ SensorDesign Simulation::checked(SensorDesign design) const {
   return simulated_design(std::move(design), telescope_, options_, truth_samples());
 }
 
-Performance Simulation::evaluate(const SensorDesign& design) const {
-  return evaluate(design, 0, screen_count());
+Performance Simulation::evaluate(const SensorDesign& design, const ScreenWatch& watch) const {
+  return evaluate(design, 0, screen_count(), watch);
 }
 
-Performance Simulation::evaluate(const SensorDesign& design, int first, int count) const {
+Performance Simulation::evaluate(const SensorDesign& design, int first, int count,
+                                 const ScreenWatch& watch) const {
   assert(first >= 0 && count >= 1 && first + count <= screen_count());
-  return run(design, static_cast<std::size_t>(first), static_cast<std::size_t>(count), false);
+  return run(design, static_cast<std::size_t>(first), static_cast<std::size_t>(count), false,
+             watch);
 }
 
-Performance Simulation::follow(SensorDesign design) const {
+Performance Simulation::follow(SensorDesign design, const ScreenWatch& watch) const {
   design.reconstruction.tolerance = 0.0;
-  return run(design, 0, screens_.size(), true);
+  return run(design, 0, screens_.size(), true, watch);
 }
 
 std::vector<double> Simulation::aberrations() const {
@@ -271,12 +281,12 @@ std::vector<double> Simulation::aberrations() const {
 }
 
 Performance Simulation::run(const SensorDesign& design, std::size_t first, std::size_t count,
-                            bool follows_loops) const {
+                            bool follows_loops, const ScreenWatch& watch) const {
   const SensorDesign valid = checked(design);
   const auto run_screens_of =
       options_.precision == Precision::double_precision ? run_screens<double> : run_screens<float>;
   Performance performance = run_screens_of(telescope_, valid, options_, mask_, screens_, first,
-                                           count, follows_loops, images_);
+                                           count, follows_loops, watch, images_);
   for (const ScreenPerformance& screen : performance.screens) {
     if (!std::isfinite(screen.wavefront.residual_wfe) ||
         !std::isfinite(screen.wavefront.total_wfe)) {

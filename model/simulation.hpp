@@ -10,6 +10,7 @@
 #include "model/true_light.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace nlcwfs {
@@ -25,6 +26,11 @@ struct SimulationOptions {
   std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
   LightSource source = {};       ///< wavelengths of the light
 };
+
+/// Asked after each screen that is done, by the thread that did it and by several at once: whether
+/// another may be started. Screens are started in order, so those that are done are the first ones;
+/// one at least always is.
+using ScreenWatch = std::function<bool()>;
 
 /// A design as it is simulated: with a matched or periodic truth the detector is as wide as the
 /// reconstruction grid.
@@ -53,15 +59,16 @@ class Simulation {
              const SimulationOptions& options);
 
   /// @throws InputError where the design is not valid or does not fit the truth's samples
-  Performance evaluate(const SensorDesign& design) const;
+  Performance evaluate(const SensorDesign& design, const ScreenWatch& watch = {}) const;
 
   /// The same on `count` screens alone, of which `first` is the first; they are counted from 0.
   /// Each screen's result is that of the evaluation on all of them.
-  Performance evaluate(const SensorDesign& design, int first, int count) const;
+  Performance evaluate(const SensorDesign& design, int first, int count,
+                       const ScreenWatch& watch = {}) const;
 
   /// The same with all of max_loops, whatever the tolerance, and with
   /// ScreenPerformance::residual_after_loops, which costs an unwrapping for each loop.
-  Performance follow(SensorDesign design) const;
+  Performance follow(SensorDesign design, const ScreenWatch& watch = {}) const;
 
   /// See simulated_design.
   SensorDesign checked(SensorDesign design) const;
@@ -77,7 +84,7 @@ class Simulation {
 
  private:
   Performance run(const SensorDesign& design, std::size_t first, std::size_t count,
-                  bool follows_loops) const;
+                  bool follows_loops, const ScreenWatch& watch) const;
 
   Telescope telescope_;
   std::vector<PhaseScreen> screens_;

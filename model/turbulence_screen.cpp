@@ -5,6 +5,7 @@
 #include "model/sample_positions.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <complex>
@@ -176,15 +177,22 @@ PhaseScreen TurbulenceScreenGenerator::screen(int index) const {
   return screen_pair(index / 2)[index % 2];
 }
 
-std::vector<PhaseScreen> generate_screens(const TurbulenceScreenGenerator& generator, int count) {
+std::vector<PhaseScreen> generate_screens(const TurbulenceScreenGenerator& generator, int count,
+                                          const std::function<bool(int)>& watch) {
   assert(count >= 0);
   std::vector<PhaseScreen> screens(count);
-  tbb::parallel_for(0, (count + 1) / 2, [&](int pair) {
-    auto [first, second] = generator.screen_pair(pair);
-    const int index = 2 * pair;
+  std::atomic<int> next_pair = 0;
+  std::atomic<bool> is_ended = false;
+  // Whoever is free takes the next pair, so that those of an ended run are the first ones.
+  tbb::parallel_for(0, (count + 1) / 2, [&](int) {
+    if (is_ended) return;
+    const int index = 2 * next_pair++;
+    auto [first, second] = generator.screen_pair(index / 2);
     screens[index] = std::move(first);
     if (index + 1 < count) screens[index + 1] = std::move(second);
+    if (watch && !watch(std::min(2, count - index))) is_ended = true;
   });
+  screens.resize(std::min(count, 2 * next_pair));
   return screens;
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace nlcwfs {
@@ -53,6 +54,9 @@ class TurbulenceScreenGenerator {
 };
 
 /// The first `count` screens, drawn in parallel; the same for any number of threads.
-std::vector<PhaseScreen> generate_screens(const TurbulenceScreenGenerator& generator, int count);
+/// @param watch  told how many more are drawn, by several threads at once, and asked whether others
+///               may follow; if not, there are fewer screens, two at least where `count` is
+std::vector<PhaseScreen> generate_screens(const TurbulenceScreenGenerator& generator, int count,
+                                          const std::function<bool(int)>& watch = {});
 
 }  // namespace nlcwfs

@@ -16,8 +16,9 @@ class DesignProblem final : public Problem {
   /// @param space, trial  used by reference
   /// @param objectives    whose means, as figures to be minimised, are a design's objectives; none
   ///                      where the cost alone counts
+  /// @param watch         ends the search where it ends a trial; see Problem::assess
   DesignProblem(const DesignSpace& space, const DesignTrial& trial,
-                std::vector<DesignMetric> objectives = {});
+                std::vector<DesignMetric> objectives = {}, ScreenWatch watch = {});
 
   std::vector<SubSpace> sub_spaces() const override { return space_.sub_spaces(); }
   /// See design_key.
@@ -32,6 +33,7 @@ class DesignProblem final : public Problem {
   const DesignSpace& space_;
   const DesignTrial& trial_;
   std::vector<DesignMetric> objectives_;
+  ScreenWatch watch_;
 };
 
 }  // namespace nlcwfs

@@ -27,21 +27,35 @@ DesignTrial::DesignTrial(std::vector<Condition> conditions, DesignCost cost)
 }
 
 TriedDesign DesignTrial::run(const SensorDesign& design,
-                             const std::function<bool(std::span<const double>)>& goes_on) const {
+                             const std::function<bool(std::span<const double>)>& goes_on,
+                             const ScreenWatch& watch) const {
   TriedDesign tried{design, std::vector<Performance>(conditions_.size()), {}};
   const bool may_end = goes_on && cost_.aggregate.kind == AggregateKind::mean;
   int done = 0;
   do {
     const int next = may_end ? std::min(std::max(first_block, 2 * done), screen_count())  //
                              : screen_count();
+    std::size_t least = static_cast<std::size_t>(next);
     for (std::size_t k = 0; k < conditions_.size(); ++k) {
       Performance block =
-          conditions_[k].simulation->evaluate(conditions_[k].lit(design), done, next - done);
-      std::ranges::move(block.screens, std::back_inserter(tried.performances[k].screens));
+          conditions_[k].simulation->evaluate(conditions_[k].lit(design), done, next - done, watch);
+      std::vector<ScreenPerformance>& screens = tried.performances[k].screens;
+      std::ranges::move(block.screens, std::back_inserter(screens));
+      least = std::min(least, screens.size());
     }
+    if (least < static_cast<std::size_t>(next)) return on_first_screens(std::move(tried), least);
     done = next;
     set_costs(tried);
   } while (done < screen_count() && goes_on(tried.costs));
+  return tried;
+}
+
+TriedDesign DesignTrial::on_first_screens(TriedDesign tried, std::size_t count) const {
+  for (Performance& performance : tried.performances) {
+    assert(performance.screens.size() >= count);
+    performance.screens.resize(count);
+  }
+  set_costs(tried);
   return tried;
 }
 

@@ -47,9 +47,16 @@ class DesignTrial {
   /// @param goes_on  asked with the costs of the first 4, 8, 16, ... screens: false ends the trial
   ///                 with these screens alone; a screen's result does not depend on it. Only asked
   ///                 where the aggregate is the mean
+  /// @param watch    ends the trial where it says so, with the screens that are done under all
+  ///                 conditions, one at least
   /// @throws InputError where a condition's simulation cannot have the design
   TriedDesign run(const SensorDesign& design,
-                  const std::function<bool(std::span<const double>)>& goes_on = {}) const;
+                  const std::function<bool(std::span<const double>)>& goes_on = {},
+                  const ScreenWatch& watch = {}) const;
+
+  /// A design that was tried here as if it had been tried on the first screens alone.
+  /// @pre it was tried on `count` screens at least
+  TriedDesign on_first_screens(TriedDesign tried, std::size_t count) const;
 
   /// A metric of a design that was tried here: its mean over all screens and conditions, and the
   /// standard error of that over the screens, which the conditions have in common.

@@ -21,16 +21,18 @@ struct OptimumRange {
 
 /// What a scan found, and what it took.
 struct OptimumScan {
-  std::vector<OptimumRange> ranges;  ///< one for each variable
-  int designs = 0;                   ///< that were tried
+  std::vector<OptimumRange> ranges;  ///< one for each variable that is done
+  int designs = 0;                   ///< that were tried, one that the watch ended included
 };
 
 /// Scans each continuous variable of a design on both sides, the others held, until the costs on
 /// the trial's screens are worse by Student's t test at 5 %, paired by screen. The scan steps out
 /// by doubled steps from a hundredth of the variable's range, and then halves the last step twice,
 /// so the ends are exact to a quarter of the distance from the best.
-/// @param stop  ends it after the variable that is being scanned
+/// @param report  told after each design which share of the scan is done, from 0 to 1
+/// @param watch   where it ends a trial, it ends the scan, with the variables that are done
 OptimumScan optimum_ranges(const DesignSpace& space, const DesignTrial& trial,
-                           const SearchPoint& best, const std::function<bool()>& stop);
+                           const SearchPoint& best, const std::function<void(double)>& report = {},
+                           const ScreenWatch& watch = {});
 
 }  // namespace nlcwfs

@@ -96,7 +96,11 @@ void Evaluator::evaluate_batch(std::span<const SearchPoint> requested,
   const std::optional<Race> against_best = race();
   tbb::parallel_for(std::size_t{0}, fresh.size(),
                     [&](std::size_t i) { assess(fresh[i], against_best); });
-  for (Evaluation& evaluation : fresh) commit(evaluation);
+  std::optional<Termination> ended;
+  for (Evaluation& evaluation : fresh) {
+    evaluation.ended ? void(ended = evaluation.ended) : commit(evaluation);
+  }
+  if (ended) throw SearchStopped(*ended);
   // The limit that the rest of the batch met says why.
   if (allowed < wanted) allowed_evaluations(wanted - allowed);
 
@@ -205,6 +209,8 @@ void Evaluator::assess(Evaluation& evaluation, const std::optional<Race>& race) 
         record.failure = fmt::format("an objective is {}", objective);
       }
     }
+  } catch (const SearchStopped& stopped) {
+    evaluation.ended = stopped.termination;
   } catch (const std::exception& error) {
     record.failure = fmt::format("exception: {}", error.what());
   } catch (...) {

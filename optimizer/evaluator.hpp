@@ -69,8 +69,8 @@ struct EvaluatorOptions {
   std::function<void(const EvaluationRecord&)> observer = {};
 };
 
-/// Thrown by the evaluator to unwind an optimizer when a limit is reached; searches turn it into
-/// their result's termination.
+/// Thrown by the evaluator to unwind an optimizer when a limit is reached, or by a problem that is
+/// to give up a design half way; searches turn it into their result's termination.
 struct SearchStopped : std::exception {
   /// For the reason that a search ended with.
   explicit SearchStopped(Termination why) : termination(why) {}
@@ -168,7 +168,8 @@ class Evaluator {
 
   struct Evaluation {
     EvaluationRecord record;
-    std::vector<double> costs;  ///< of the samples
+    std::vector<double> costs;              ///< of the samples
+    std::optional<Termination> ended = {};  ///< by the problem; then there is nothing else
   };
   /// A sub-space and the values of its discrete variables.
   using Slice = std::pair<int, std::vector<double>>;

@@ -95,7 +95,8 @@ class Problem {
   virtual std::string key(const SearchPoint& point) const = 0;
 
   /// The cost of the design, to be minimised; negative costs are allowed. An exception, NaN or an
-  /// infinity says that this design has no cost: the search goes on without it.
+  /// infinity says that this design has no cost: the search goes on without it. SearchStopped says
+  /// that the search is to end, without this design.
   /// May be called from several threads at once.
   /// @param goes_on  may be empty; a problem need not ask
   virtual Assessment assess(const SearchPoint& point, const GoesOn& goes_on) = 0;

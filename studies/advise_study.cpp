@@ -3,14 +3,14 @@
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
 #include "studies/law_file.hpp"
-#include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
+#include "studies/trial_summary.hpp"
 #include "studies/units.hpp"
+#include "studies/verified_ranking.hpp"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -152,17 +152,9 @@ void run_advise(const CommandLine& command_line) {
   Json design_json = to_json(design, telescope, seeing.fried_parameter);
   std::optional<TriedDesign> verified;
   if (verification) {
-    ProgressLine progress(command_line.quiet);
-    progress.show(fmt::format("verification: {} fresh screens", verification->screen_count()));
-    const auto start = std::chrono::steady_clock::now();
-    verified = verification->run(design);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    record.archive().add({.stage = "verify",
-                          .design = design_json.dump(),
-                          .cost = mean_and_standard_error(verified->costs).mean,
-                          .failure = "",
-                          .seconds = elapsed.count(),
-                          .performance = to_json(verified->performances.front()).dump()});
+    Progress progress = verification_progress(*verification, 1);
+    verified = verified_design(design, *verification, record.archive(), interruptible(progress));
+    note_missing_screens(record, *verified, *verification);
     design_json["cost"] = to_json(mean_and_standard_error(verified->costs));
     design_json["performance"] = to_json(verified->performances.front());
   }
@@ -209,9 +201,9 @@ void run_advise(const CommandLine& command_line) {
         d_over_r0);
   }
   if (verified) fmt::print("{}", captured_energy_warnings(design, verified->performances.front()));
-  fmt::print(
-      "\nadvised.cfg holds this design, and a search from it: nlcwfs optimize --config {}\n{}\n",
-      record.folder().file("advised.cfg").string(), record.closing_line());
+  fmt::print("\nadvised.cfg holds this design, and a search from it: nlcwfs optimize --config {}\n",
+             record.folder().file("advised.cfg").string());
+  record.close();
 }
 
 }  // namespace nlcwfs

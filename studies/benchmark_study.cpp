@@ -1,12 +1,13 @@
 #include "objectives/design_metric.hpp"
 #include "studies/design_text.hpp"
-#include "studies/progress_line.hpp"
+#include "studies/interrupt.hpp"
+#include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
+#include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -36,13 +37,18 @@ struct EvaluationTime {
   double loop_seconds() const { return reconstruction_seconds / loops; }
 };
 
+/// @throws RunInterrupted
 EvaluationTime timed_evaluation(const Simulation& simulation, const SensorDesign& design) {
-  const auto start = std::chrono::steady_clock::now();
-  const Performance performance = simulation.evaluate(design);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const Stopwatch stopwatch;
+  const Performance performance =
+      simulation.evaluate(design, [] { return !InterruptWatch::interrupted(); });
+  const double seconds = stopwatch.seconds();
+  if (static_cast<int>(performance.screens.size()) < simulation.screen_count()) {
+    throw RunInterrupted("before anything was timed");
+  }
   using Screen = const ScreenPerformance&;
   const auto mean = [&](const auto& metric) { return performance.mean_of(metric).mean; };
-  return {.seconds = elapsed.count(),
+  return {.seconds = seconds,
           .data_seconds = mean([](Screen screen) { return screen.data_seconds; }),
           .reconstruction_seconds = mean([](Screen screen) { return screen.seconds; }),
           .loops = mean([](Screen screen) { return double(screen.loops); }),
@@ -62,7 +68,7 @@ int thread_count() {
   return std::min(static_cast<int>(allowed), tbb::this_task_arena::max_concurrency());
 }
 
-/// @pre the number of times is odd
+/// The higher of the two in the middle where the number of times is even.
 template <class Figure>
 double median_of(const std::vector<EvaluationTime>& times, const Figure& figure) {
   std::vector<double> values(times.size());
@@ -118,14 +124,26 @@ class Benchmark {
     repetitions_ = seconds < evaluation_limit ? 3 : 1;
   }
 
-  /// In double and in single precision.
-  std::pair<Speed, Speed> speeds() const {
+  /// In double and in single precision. An interrupt ends it with the repetitions that are done.
+  /// @throws RunInterrupted before there is one
+  std::pair<Speed, Speed> speeds() {
+    Progress progress("benchmark", 4.0 * repetitions_, "evaluations");
     Trial in_double;
     Trial in_single;
     // In turns, so that what else the machine does meets both.
     for (int repetition = 0; repetition < repetitions_; ++repetition) {
-      repeat(Precision::double_precision, in_double);
-      repeat(Precision::single_precision, in_single);
+      try {
+        repeat(Precision::double_precision, in_double, progress);
+        repeat(Precision::single_precision, in_single, progress);
+      } catch (const RunInterrupted&) {
+        if (repetition == 0) throw;
+        repetitions_ = repetition;
+        is_interrupted_ = true;
+      }
+      if (InterruptWatch::interrupted() && repetition + 1 < repetitions_) {
+        repetitions_ = repetition + 1;
+        is_interrupted_ = true;
+      }
     }
     return {speed_of(in_double), speed_of(in_single)};
   }
@@ -140,6 +158,7 @@ class Benchmark {
   int configured_screens() const { return configured_screens_; }
   int used_screens() const { return used_screens_; }
   int repetitions() const { return repetitions_; }
+  bool is_interrupted() const { return is_interrupted_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
@@ -156,9 +175,11 @@ class Benchmark {
   }
 
   /// In new simulations, which have no images yet.
-  void repeat(Precision precision, Trial& trial) const {
+  void repeat(Precision precision, Trial& trial, Progress& progress) const {
     trial.alone.push_back(evaluation_on_one_thread(simulation(precision, 1), design_));
+    progress.advance();
     trial.together.push_back(timed_evaluation(simulation(precision, used_screens_), design_));
+    progress.advance();
   }
 
   Speed speed_of(const Trial& trial) const {
@@ -188,6 +209,7 @@ class Benchmark {
   int configured_screens_;
   int used_screens_ = 1;
   int repetitions_ = 1;
+  bool is_interrupted_ = false;
 };
 
 /// The most memory that this process has had, MiB.
@@ -315,19 +337,21 @@ void run_benchmark(const CommandLine& command_line) {
   Benchmark benchmark(configuration);
   std::optional<RunRecord> record;
   if (command_line.output) record.emplace(command_line);
+  const InterruptWatch watch;
 
-  ProgressLine progress(command_line.quiet);
-  progress.show("benchmark: warming up");
   benchmark.prepare();
-  progress.show(fmt::format("benchmark: {} of the design in double and in single precision",
-                            counted(benchmark.repetitions(), "evaluation")));
   const auto [in_double, in_single] = benchmark.speeds();
-  progress.clear();
   const double memory = peak_memory();
 
   print_task(benchmark, configuration);
   print_speeds(in_double, in_single, benchmark, configuration);
   print_reading(benchmark, memory);
+  if (benchmark.is_interrupted()) {
+    const std::string what =
+        fmt::format("{} had been timed", counted(benchmark.repetitions(), "repetition"));
+    if (!record) throw RunInterrupted(fmt::format("when {}", what));
+    record->note_interrupted(what);
+  }
   if (!record) return;
   const SensorDesign& design = benchmark.design();
   record->write_summary({{"grid_samples", design.grid_width()},
@@ -342,7 +366,8 @@ void run_benchmark(const CommandLine& command_line) {
                            {"double", to_json(in_double, search_seconds(in_double, configuration))},
                            {"single", to_json(in_single, search_seconds(in_single, configuration))},
                            {"peak_memory_mib", memory}}}});
-  fmt::print("\n{}\n", record->closing_line());
+  fmt::print("\n");
+  record->close();
 }
 
 }  // namespace nlcwfs

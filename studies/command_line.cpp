@@ -150,7 +150,7 @@ Configuration resumed_configuration(const CommandLine& command_line, bool config
   if (configured) {
     throw InputError("--resume", shown,
                      "goes on in that folder as its config.cfg says; nothing may be with it but "
-                     "--threads and --quiet");
+                     "--threads, --quiet and --log-level");
   }
   if (!std::filesystem::is_regular_file(folder / "config.cfg") ||
       !std::filesystem::is_regular_file(folder / "archive.sqlite")) {
@@ -160,6 +160,18 @@ Configuration resumed_configuration(const CommandLine& command_line, bool config
   Configuration configuration;
   configuration.read_file(folder / "config.cfg");
   return configuration;
+}
+
+LogLevel parse_log_level(const std::string& value) {
+  static const std::map<std::string, LogLevel> levels{{"error", LogLevel::error},
+                                                      {"warning", LogLevel::warning},
+                                                      {"info", LogLevel::info},
+                                                      {"debug", LogLevel::debug}};
+  const auto level = levels.find(value);
+  if (level == levels.end()) {
+    throw InputError("--log-level", one_line(value), "one of error, warning, info, debug");
+  }
+  return level->second;
 }
 
 int parse_threads(const std::string& value) {
@@ -176,7 +188,6 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   const po::options_description known = known_options();
 
   const std::map<std::string, bool CommandLine::*> flags{
-      {"quiet", &CommandLine::quiet},
       {"verify", &CommandLine::verify},
       {"help", &CommandLine::help},
       {"version", &CommandLine::version},
@@ -202,6 +213,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     const auto flag = flags.find(key);
     if (flag != flags.end()) {
       result.*flag->second = true;
+    } else if (key == "quiet") {
+      result.log_level = LogLevel::warning;
     } else if (value.empty() || value.starts_with("--")) {
       refuse_missing_value("--" + key);
     } else if (key == "config") {
@@ -214,11 +227,17 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       result.output = value;
     } else if (key == "resume") {
       result.resume = value;
+    } else if (key == "log-level") {
+      result.log_level = parse_log_level(value);
     } else if (key == "threads") {
       result.threads = parse_threads(value);
     } else {
       values.emplace_back(key, value);
     }
+  }
+  if (seen.contains("quiet") && seen.contains("log-level")) {
+    throw InputError("command line", "--quiet",
+                     "is the same as --log-level warning; keep one of them");
   }
   if (result.help || result.version) return result;
   require_whole_command(result);

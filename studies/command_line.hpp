@@ -1,6 +1,7 @@
 #pragma once
 
 #include "studies/configuration.hpp"
+#include "studies/log.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -8,6 +9,8 @@
 #include <vector>
 
 namespace nlcwfs {
+
+class Progress;
 
 /// What the user asked for.
 struct CommandLine {
@@ -17,12 +20,13 @@ struct CommandLine {
   std::optional<std::filesystem::path> output;  ///< directory for the results
   std::optional<std::filesystem::path> resume;  ///< folder of the run to go on with
   int threads = 0;                              ///< 0 = all cores
-  bool quiet = false;                           ///< print no progress
-  bool silent = false;       ///< print no results either: for runs that are parts of another
-  bool verify = false;       ///< simulate what advise predicts; only for advise
-  bool help = false;         ///< then the configuration holds the defaults
-  bool version = false;      ///< then the configuration holds the defaults
-  bool dump_config = false;  ///< print the configuration, and stop
+  LogLevel log_level = LogLevel::info;          ///< what goes to standard error
+  bool silent = false;              ///< print no results either: for runs that are parts of another
+  const Progress* whole = nullptr;  ///< of the run that this is a part of
+  bool verify = false;              ///< simulate what advise predicts; only for advise
+  bool help = false;                ///< then the configuration holds the defaults
+  bool version = false;             ///< then the configuration holds the defaults
+  bool dump_config = false;         ///< print the configuration, and stop
 };
 
 /// Reads the command line and the files and the preset that it names; the command line's values

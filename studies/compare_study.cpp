@@ -4,16 +4,15 @@
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
 #include "studies/grid_picture.hpp"
-#include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
 #include "studies/text.hpp"
 #include "studies/trial_summary.hpp"
+#include "studies/verified_ranking.hpp"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -227,27 +226,6 @@ bool pixels_vary(const FinishedRun& sweep, const FinishedRun& optimize) {
          sweep.best.detector.pupil_pixels != optimize.best.detector.pupil_pixels;
 }
 
-TriedDesign verified(const FinishedRun& run, const std::string& name, const DesignTrial& trial,
-                     RunRecord& record, bool quiet) {
-  ProgressLine progress(quiet);
-  progress.show(
-      fmt::format("verification: best of {} on {} fresh screens", name, trial.screen_count()));
-  const auto start = std::chrono::steady_clock::now();
-  TriedDesign tried = trial.run(run.best);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  const Condition& condition = trial.conditions().front();
-  record.archive().add(
-      {.stage = "verify",
-       .design =
-           to_json(run.best, condition.simulation->telescope(), condition.fried_parameter).dump(),
-       .cost = mean_and_standard_error(tried.costs).mean,
-       .failure = "",
-       .seconds = elapsed.count(),
-       .performance = to_json(pooled(tried.performances)).dump(),
-       .key = design_key(run.best)});
-  return tried;
-}
-
 /// The designs that a search tried, over the sweep's map of the cost.
 /// @return why there is no picture; nothing where there is one
 std::optional<std::string> write_path_picture(const FinishedRun& sweep, const FinishedRun& optimize,
@@ -321,8 +299,17 @@ void run_compare(const CommandLine& command_line) {
   for (const FinishedRun* run : {&sweep, &optimize}) (void)trial.checked(run->best);
   RunRecord record(compared);
 
-  const TriedDesign swept = verified(sweep, "the sweep", trial, record, command_line.quiet);
-  const TriedDesign found = verified(optimize, "the optimizer", trial, record, command_line.quiet);
+  TriedDesign swept;
+  TriedDesign found;
+  {
+    Progress progress = verification_progress(trial, 2);
+    swept = verified_design(sweep.best, trial, record.archive(), interruptible(progress));
+    found = verified_design(optimize.best, trial, record.archive(), interruptible(progress));
+  }
+  const std::size_t screens = std::min(swept.costs.size(), found.costs.size());
+  swept = trial.on_first_screens(std::move(swept), screens);
+  found = trial.on_first_screens(std::move(found), screens);
+  note_missing_screens(record, found, trial);
   const Improvement gain = improvement(found, swept);
   const double designs_ratio = double(sweep.designs) / optimize.designs;
   const double reconstructions_ratio =
@@ -359,7 +346,7 @@ void run_compare(const CommandLine& command_line) {
   fmt::print(
       "Both on the same {} screens of seed {}, which neither has seen, true field {} "
       "samples across the pupil:\n{}",
-      trial.screen_count(), configuration.seed("verify.seed"),
+      screens, configuration.seed("verify.seed"),
       trial.conditions().front().simulation->truth_samples(),
       performance_table({{"sweep", &swept_performance, swept.costs},
                          {"optimize", &found_performance, found.costs}}));
@@ -372,7 +359,7 @@ void run_compare(const CommandLine& command_line) {
              optimize.reconstructions, reconstructions_ratio);
   fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n\n", "time", duration_text(sweep.seconds),
              duration_text(optimize.seconds), seconds_ratio);
-  fmt::print("{}\n", record.closing_line());
+  record.close();
 }
 
 }  // namespace nlcwfs

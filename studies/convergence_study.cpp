@@ -3,11 +3,13 @@
 #include "results/curve_picture.hpp"
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
+#include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
 #include "studies/trial_summary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -122,10 +124,25 @@ void run_convergence(const CommandLine& command_line) {
   const SensorDesign design = trial.checked(design_of(configuration));
   RunRecord record(command_line);
 
-  const TriedDesign tried = trial.run(design);
   const Simulation& simulation = *trial.conditions().front().simulation;
-  const std::vector<LoopResiduals> loops = residuals_of(simulation.follow(design));
+  const int screens = trial.screen_count();
+  const Performance followed = [&] {
+    Progress progress("convergence", screens, "screens followed", "then to the tolerance",
+                      command_line.whole);
+    return simulation.follow(design, interruptible(progress));
+  }();
+  const TriedDesign tried = [&] {
+    Progress progress("convergence to the tolerance", screens, "screens", "", command_line.whole);
+    return trial.run(design, {}, interruptible(progress));
+  }();
+  if (const std::size_t done = std::min(followed.screens.size(), tried.costs.size());
+      static_cast<int>(done) < screens) {
+    record.note_interrupted(fmt::format("{} of {} screens were followed, {} to the tolerance",
+                                        followed.screens.size(), screens, tried.costs.size()));
+  }
+  const std::vector<LoopResiduals> loops = residuals_of(followed);
   std::vector<double> aberrations = simulation.aberrations();
+  aberrations.resize(followed.screens.size());
   for (double& aberration : aberrations) aberration /= nm;
   record.folder().write("screens.csv", screens_table(tried.performances.front()));
   record.folder().write("convergence.csv", table_of(loops));
@@ -140,10 +157,10 @@ void run_convergence(const CommandLine& command_line) {
   const Performance& performance = tried.performances.front();
   record.print("{}\n\n{}\n{}\n", telescope_line(telescope, seeing),
                planes_table(design, telescope, seeing, &performance), loops_text(loops));
-  record.print("With reconstruction.tolerance = {}:\n{}\n{}\n",
+  record.print("With reconstruction.tolerance = {}:\n{}\n",
                configuration.value_text("reconstruction.tolerance"),
-               performance_table({{"mean +- standard error", &performance, tried.costs}}),
-               record.closing_line());
+               performance_table({{"mean +- standard error", &performance, tried.costs}}));
+  record.close();
 }
 
 }  // namespace nlcwfs

@@ -4,7 +4,7 @@
 #include "objectives/design_problem.hpp"
 #include "results/design_summary.hpp"
 #include "studies/interrupt.hpp"
-#include "studies/progress_line.hpp"
+#include "studies/progress.hpp"
 #include "studies/search_log.hpp"
 #include "studies/settings.hpp"
 #include "studies/stopwatch.hpp"
@@ -138,14 +138,15 @@ DesignSearch::DesignSearch(const Configuration& configuration)
   }
 }
 
-DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
+DesignSearchResult DesignSearch::run(Archive& archive, const Progress* whole) const {
   DesignSearchResult result;
   const InterruptWatch watch;
   std::vector<SearchPoint> starts = options.starts;
   const Stopwatch stopwatch;
   if (cheap_) {
-    const SearchResult cheap = search_stage("cheap search", cheap_->space, cheap_->trial,
-                                            cheap_->options, archive, quiet, result);
+    const SearchResult cheap =
+        search_stage("cheap search", cheap_->space, cheap_->trial, cheap_->options, archive,
+                     "then the search and the verification", whole, result);
     result.cheap_evaluations = cheap.evaluations;
     // Not the costs: they are of another simulation. First, as an interrupted search tries one.
     std::vector<SearchPoint> leaders;
@@ -157,43 +158,90 @@ DesignSearchResult DesignSearch::run(Archive& archive, bool quiet) const {
   if (std::optional<double>& limit = from_starts.evaluation.time_limit) {
     limit = std::max(0.0, *limit - stopwatch.seconds());
   }
-  result.search = search_stage("search", space, trial, from_starts, archive, quiet, result);
+  result.search = search_stage("search", space, trial, from_starts, archive,
+                               "then the verification", whole, result);
   result.search_seconds = stopwatch.seconds();
   result.reconstructions = result.search_reconstructions;
+  if (result.search.termination == Termination::stop_requested) {
+    result.interrupted_when = fmt::format("{} of {} designs were tried", result.search.evaluations,
+                                          from_starts.evaluation.budget);
+  }
+  verify(archive, whole, result);
+  if (result.interrupted_when.empty()) scan_ranges(whole, result);
+  return result;
+}
 
-  const auto verify = [&](const SensorDesign& candidate, const std::string& name) {
-    result.reconstructions +=
-        static_cast<long>(verification.conditions().size()) * verification.screen_count();
-    return verified_design(candidate, name, verification, archive, quiet);
-  };
+void DesignSearch::verify(Archive& archive, const Progress* whole,
+                          DesignSearchResult& result) const {
+  // An interrupt that ended the search does not end this too.
+  const bool may_end = result.interrupted_when.empty();
   const auto& leaders = result.search.best_designs;
   const std::size_t count = std::min(leaders.size(), static_cast<std::size_t>(candidates_));
-  std::vector<TriedDesign> verified;
+  Progress progress = verification_progress(
+      verification, count + 1, may_end ? "then how far each variable may move" : "", whole);
+  const auto verified = [&](const SensorDesign& design) {
+    TriedDesign tried = verified_design(design, verification, archive,
+                                        may_end ? interruptible(progress) : counted(progress));
+    result.reconstructions +=
+        static_cast<long>(verification.conditions().size() * tried.costs.size());
+    return tried;
+  };
+  const auto is_whole = [&](const TriedDesign& tried) {
+    return static_cast<int>(tried.costs.size()) == verification.screen_count();
+  };
+  // The baseline first: whatever is done later can then be held against it.
+  result.baseline = verified(baseline);
+  std::vector<TriedDesign> candidates;
   for (std::size_t i = 0; i < count; ++i) {
-    verified.push_back(
-        verify(space.design(leaders[i].point), fmt::format("design {} of {}", i + 1, count)));
+    TriedDesign tried = verified(space.design(leaders[i].point));
+    if (!is_whole(tried) && i > 0) break;
+    candidates.push_back(std::move(tried));
+    if (may_end && InterruptWatch::interrupted()) break;
   }
-  result.ranking = ranked(std::move(verified));
-  result.baseline = verify(baseline, "the baseline");
+  const std::size_t screens = std::min(result.baseline.costs.size(), candidates[0].costs.size());
+  if (static_cast<int>(screens) < verification.screen_count()) {
+    result.baseline = verification.on_first_screens(std::move(result.baseline), screens);
+    candidates.resize(1);
+    candidates[0] = verification.on_first_screens(std::move(candidates[0]), screens);
+    result.interrupted_when = fmt::format("the best design was verified on {} of {} screens",
+                                          screens, verification.screen_count());
+  } else if (candidates.size() < count) {
+    result.interrupted_when =
+        fmt::format("{} of {} designs were verified", candidates.size(), count);
+  }
+  result.ranking = ranked(std::move(candidates));
   result.gain = improvement(result.best(), result.baseline);
+}
 
-  ProgressLine progress(quiet);
-  progress.show("how far each variable may move");
-  OptimumScan scanned = optimum_ranges(space, scan, leaders[result.ranking.front().candidate].point,
-                                       [] { return InterruptWatch::interrupted(); });
+void DesignSearch::scan_ranges(const Progress* whole, DesignSearchResult& result) const {
+  const SearchPoint& best = result.search.best_designs[result.ranking.front().candidate].point;
+  Progress progress("how far each variable may move", 1.0, "of the scan", "", whole);
+  OptimumScan scanned = optimum_ranges(
+      space, scan, best,
+      [&](double share) {
+        progress.describe(fmt::format("{:.0f} %", 100.0 * share));
+        progress.at(share);
+      },
+      [] { return !InterruptWatch::interrupted(); });
   result.ranges = std::move(scanned.ranges);
   result.reconstructions +=
       static_cast<long>(scan.conditions().size()) * scan.screen_count() * scanned.designs;
-  return result;
+  const int variables =
+      space.sub_spaces()[static_cast<std::size_t>(best.sub_space)].continuous_count();
+  if (static_cast<int>(result.ranges.size()) < variables) {
+    result.interrupted_when =
+        fmt::format("it was known of {} of {} variables how far they may move",
+                    result.ranges.size(), variables);
+  }
 }
 
 SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpace& stage_space,
                                         const DesignTrial& stage_trial, SearchOptions stage_options,
-                                        Archive& archive, bool quiet,
+                                        Archive& archive, std::string then, const Progress* whole,
                                         DesignSearchResult& result) const {
-  DesignProblem problem(stage_space, stage_trial);
   SearchLog log(name, stage_space, telescope, seeing.fried_parameter, stage_options.evaluation,
-                archive, quiet);
+                archive, std::move(then), whole);
+  DesignProblem problem(stage_space, stage_trial, {}, log.interruptible());
   std::stop_source stop;
   if (InterruptWatch::interrupted()) stop.request_stop();
   stage_options.evaluation.stop = stop.get_token();

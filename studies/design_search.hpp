@@ -38,8 +38,9 @@ struct DesignSearchResult {
   std::vector<RankedDesign> ranking;
   TriedDesign baseline;   ///< on the same screens
   Improvement gain = {};  ///< of the best over the baseline
-  /// Nothing where the search was interrupted.
+  /// Of the variables that were scanned before an interrupt.
   std::vector<OptimumRange> ranges;
+  std::string interrupted_when;     ///< for people; empty where it was not
   int cheap_evaluations = 0;        ///< designs of the cheap stage
   int given_up = 0;                 ///< designs that races gave up
   long search_reconstructions = 0;  ///< of both stages
@@ -58,9 +59,13 @@ class DesignSearch {
   /// @throws InputError where values do not go together
   explicit DesignSearch(const Configuration& configuration);
 
-  /// The cheap stage where there is one, the search, and the verification on fresh screens. Ctrl-C
-  /// ends the search with the best designs so far.
-  DesignSearchResult run(Archive& archive, bool quiet) const;
+  /// The cheap stage where there is one, the search, the verification on fresh screens and the
+  /// scan of how far the best design's variables may move. An interrupt of the search ends it with
+  /// the best designs so far, which are verified all the same; one of the verification ends it with
+  /// the designs that are done and their baseline, or the best alone on as many screens as are done
+  /// of both.
+  /// @param whole  see Progress
+  DesignSearchResult run(Archive& archive, const Progress* whole = nullptr) const;
 
   const Telescope telescope;       ///< that designs are for
   const Seeing seeing;             ///< the first, where there are several
@@ -81,7 +86,10 @@ class DesignSearch {
 
   SearchResult search_stage(const std::string& name, const DesignSpace& stage_space,
                             const DesignTrial& stage_trial, SearchOptions stage_options,
-                            Archive& archive, bool quiet, DesignSearchResult& result) const;
+                            Archive& archive, std::string then, const Progress* whole,
+                            DesignSearchResult& result) const;
+  void verify(Archive& archive, const Progress* whole, DesignSearchResult& result) const;
+  void scan_ranges(const Progress* whole, DesignSearchResult& result) const;
 
   std::optional<CheapStage> cheap_;
   int candidates_;

@@ -1,11 +1,12 @@
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
+#include "studies/evaluation_log.hpp"
+#include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
+#include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
 #include "studies/trial_summary.hpp"
-
-#include <chrono>
 
 #include <fmt/format.h>
 
@@ -20,17 +21,22 @@ void run_evaluate(const CommandLine& command_line) {
   const SensorDesign design = trial.checked(design_of(configuration));
   RunRecord record(command_line);
 
-  const auto start = std::chrono::steady_clock::now();
-  const TriedDesign tried = trial.run(design);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const Stopwatch stopwatch;
+  const TriedDesign tried = [&] {
+    Progress progress("evaluate", trial.screen_count(), "screens", "", command_line.whole);
+    return trial.run(design, {}, interruptible(progress));
+  }();
+  const double seconds = stopwatch.seconds();
   const Performance& performance = tried.performances.front();
+  note_missing_screens(record, tried, trial);
 
-  record.archive().add({.stage = "evaluate",
-                        .design = to_json(design, telescope, seeing.fried_parameter).dump(),
-                        .cost = mean_and_standard_error(tried.costs).mean,
-                        .failure = "",
-                        .seconds = elapsed.count(),
-                        .performance = to_json(performance).dump()});
+  archive_and_log(record.archive(),
+                  {.stage = "evaluate",
+                   .design = to_json(design, telescope, seeing.fried_parameter).dump(),
+                   .cost = mean_and_standard_error(tried.costs).mean,
+                   .failure = "",
+                   .seconds = seconds,
+                   .performance = to_json(performance).dump()});
   record.folder().write("screens.csv", screens_table(performance));
   record.write_summary({{"design", to_json(tried, trial)}});
 
@@ -41,7 +47,8 @@ void run_evaluate(const CommandLine& command_line) {
                configuration.choice("simulation.truth"),
                performance_table({{"mean +- standard error", &performance, tried.costs}}));
   record.print("{}", captured_energy_warnings(design, performance));
-  record.print("\n{}\n", record.closing_line());
+  record.print("\n");
+  record.close();
 }
 
 }  // namespace nlcwfs

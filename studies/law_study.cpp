@@ -4,7 +4,7 @@
 #include "studies/design_search.hpp"
 #include "studies/design_text.hpp"
 #include "studies/law_file.hpp"
-#include "studies/progress_line.hpp"
+#include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -134,32 +135,32 @@ void run_law(const CommandLine& command_line) {
 
   std::vector<ScalingDatum> data;
   Json searches = Json::array();
-  bool is_interrupted = false;
-  for (const double ratio : ratios) {
-    fmt::print("{}\n", fmt::format("D/r0 = {:g}:", ratio));
-    const DesignSearch task(at_seeing(configuration, order, ratio));
-    const DesignSearchResult result = task.run(record.archive(), command_line.quiet);
-    if (result.ranges.size() < 2) {
-      is_interrupted = true;
-      break;
+  {
+    Progress progress("law", double(ratios.size()), "seeings");
+    for (const double ratio : ratios) {
+      const DesignSearch task(at_seeing(configuration, order, ratio));
+      const DesignSearchResult result = task.run(record.archive(), &progress);
+      if (!result.interrupted_when.empty()) break;
+      data.push_back(datum_of(task, result));
+      record.folder().write("law.csv", data_csv(data));
+      searches.push_back(to_json(result.best(), task.verification));
+      fmt::print(
+          "D/r0 = {:g}: near pair {} Talbot distances, far pair at Fresnel number {}, cost {}\n",
+          ratio, with_error(data.back().z_near_talbot), with_error(data.back().far_fresnel_number),
+          with_error(mean_and_standard_error(result.best().costs)));
+      std::fflush(stdout);
+      progress.at(double(data.size()), 1.0);
     }
-    data.push_back(datum_of(task, result));
-    record.folder().write("law.csv", data_csv(data));
-    searches.push_back(to_json(result.best(), task.verification));
-    fmt::print("  near pair {} Talbot distances, far pair at Fresnel number {}, cost {}\n",
-               with_error(data.back().z_near_talbot), with_error(data.back().far_fresnel_number),
-               with_error(mean_and_standard_error(result.best().costs)));
   }
-  if (is_interrupted) {
-    const std::string done =
-        fmt::format("interrupted after {} of {} seeings", data.size(), ratios.size());
+  if (data.size() < ratios.size()) {
+    const std::string done = fmt::format("{} of {} seeings were done", data.size(), ratios.size());
     if (data.size() < least_seeings) {
-      throw std::runtime_error(fmt::format(
+      throw RunInterrupted(fmt::format(
           "{}, and a law needs {}{}", done, least_seeings,
           data.empty() ? ""
                        : fmt::format("; {} has them", record.folder().file("law.csv").string())));
     }
-    fmt::print("note: {}; the law is fitted to these\n", done);
+    record.note_interrupted(done);
   }
   const LawFile file{law_conditions(at_seeing(configuration, order, ratios.front())), data,
                      fit_scaling_law(data, order)};
@@ -168,8 +169,9 @@ void run_law(const CommandLine& command_line) {
 
   fmt::print("\nThe best designs, and the law that is fitted to them:\n{}\n",
              data_table(data, file.law));
-  fmt::print("nlcwfs advise --advise.law {} follows it.\n{}\n",
-             record.folder().file("law.json").string(), record.closing_line());
+  fmt::print("nlcwfs advise --advise.law {} follows it.\n",
+             record.folder().file("law.json").string());
+  record.close();
 }
 
 }  // namespace nlcwfs

@@ -3,6 +3,8 @@
 #include "studies/command_line.hpp"
 #include "studies/commands.hpp"
 #include "studies/help_text.hpp"
+#include "studies/interrupt.hpp"
+#include "studies/log.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
 #include "studies/text.hpp"
@@ -22,7 +24,7 @@
 
 namespace {
 
-enum ExitCode { done = 0, run_failed = 1, bad_input = 2 };
+enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 3 };
 
 void run(int argc, const char* const* argv) {
   using namespace nlcwfs;
@@ -42,6 +44,7 @@ void run(int argc, const char* const* argv) {
     fmt::print("{}", command_line.configuration.dump());
     return;
   }
+  start_log(command_line.log_level);
   if (command_line.output) OutputFolder::require_free(*command_line.output);
   const int threads =
       command_line.threads > 0 ? command_line.threads : tbb::this_task_arena::max_concurrency();
@@ -74,6 +77,10 @@ int main(int argc, char** argv) {
       throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
     }
     return done;
+  } catch (const nlcwfs::RunInterrupted& what) {
+    std::fflush(stdout);
+    if (*what.what() != 0) fmt::print(stderr, "nlcwfs: interrupted: {}\n", what.what());
+    return interrupted;
   } catch (const nlcwfs::InputError& error) {
     fmt::print(stderr, "nlcwfs: {}\n", nlcwfs::without_controls(error.what()));
     return bad_input;

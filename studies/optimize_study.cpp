@@ -1,14 +1,13 @@
 #include "results/design_summary.hpp"
 #include "studies/design_search.hpp"
 #include "studies/design_text.hpp"
-#include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
+#include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
+#include "studies/text.hpp"
 #include "studies/trial_summary.hpp"
 #include "studies/units.hpp"
-
-#include <chrono>
 
 #include <fmt/format.h>
 
@@ -84,9 +83,9 @@ std::string search_text(const DesignSearch& task, const DesignSearchResult& resu
 /// How far the best design's variables may move.
 std::string ranges_text(const DesignSearch& task, const DesignSearchResult& result) {
   if (result.ranges.empty()) {
-    return result.search.termination == Termination::stop_requested
-               ? "The search was interrupted: how far each variable may move was not tried.\n\n"
-               : "";
+    return result.interrupted_when.empty()
+               ? ""
+               : "Interrupted: how far each variable may move was not tried.\n\n";
   }
   std::string text =
       fmt::format("Moved alone, each variable is as good on {} fresh screens (Student's t, 5 %):\n",
@@ -154,7 +153,7 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
   fmt::print("Baseline:\n{}\n", planes_table(result.baseline.design, task.telescope, task.seeing,
                                              &baseline_performance));
   fmt::print("Both on the same {} fresh screens, true field {} samples across the pupil:\n{}",
-             task.verification.screen_count(),
+             result.best().costs.size(),
              task.verification.conditions().front().simulation->truth_samples(),
              performance_table({{"best design", &best_performance, best.costs},
                                 {"baseline", &baseline_performance, result.baseline.costs}}));
@@ -168,11 +167,11 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
 
 void run_optimize(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const DesignSearch task(configuration);
   RunRecord record(command_line);
-  const DesignSearchResult result = task.run(record.archive(), command_line.quiet);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const DesignSearchResult result = task.run(record.archive());
+  if (!result.interrupted_when.empty()) record.note_interrupted(result.interrupted_when);
 
   Configuration best_configuration = configuration;
   set_design(best_configuration, result.best().design, task.space, "by the search");
@@ -193,12 +192,12 @@ void run_optimize(const CommandLine& command_line) {
        {"search_reconstructions", result.search_reconstructions},
        {"saved_reconstructions", result.saved_reconstructions},
        {"reconstructions", result.reconstructions},
-       {"wall_seconds", elapsed.count()},
+       {"wall_seconds", stopwatch.seconds()},
        {"search_seconds", result.search_seconds},
        {"termination", to_string(result.search.termination)},
        {"stages", stages_array(result.search)}});
   print_result(task, result, configuration.choice("search.precision"));
-  fmt::print("{}\n", record.closing_line());
+  record.close();
 }
 
 }  // namespace nlcwfs

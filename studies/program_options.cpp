@@ -34,7 +34,11 @@ const std::vector<ProgramOption>& program_options() {
       {"verify", "", "simulate the design on fresh screens, as the section verify says",
        [](const Command& command) { return command.name == "advise"; }},
       {"threads", "N", "use this many cores, 0 = all [0]", is_of_all},
-      {"quiet", "", "print no progress", is_of_all},
+      {"log-level", "LEVEL",
+       "what goes to standard error while the command runs: error, warning, info (progress) or "
+       "debug (each stage and design too) [info]",
+       is_of_all},
+      {"quiet", "", "no progress: the same as --log-level warning", is_of_all},
       {"dump-config", "", "print every key with its value as a configuration file, and stop",
        is_of_all},
       {"help", "", "print this text, and stop", is_of_all},

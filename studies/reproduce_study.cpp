@@ -1,5 +1,7 @@
 #include "model/input_error.hpp"
+#include "studies/interrupt.hpp"
 #include "studies/paper_claims.hpp"
+#include "studies/progress.hpp"
 #include "studies/reproduced_runs.hpp"
 #include "studies/reproduction_plan.hpp"
 #include "studies/reproduction_report.hpp"
@@ -47,37 +49,52 @@ bool has_archive(const std::filesystem::path& folder) {
 }
 
 /// Runs what of the plan is not done yet.
-void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::path& folder,
-                 const CommandLine& command_line) {
+void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::path& folder) {
+  const auto is_done = [&](const PlannedRun& run) {
+    const std::filesystem::path path = folder / run.folder;
+    return is_of(run, path) && std::filesystem::exists(path / "summary.json");
+  };
+  double all = 0.0;
+  double done = 0.0;
+  for (const PlannedRun& run : runs) {
+    all += work_of(run);
+    if (is_done(run)) done += work_of(run);
+  }
+  Progress progress("reproduce", all, "transforms");
+  progress.starts_at(done);
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (is_done(runs[i])) continue;
+    const std::string place = fmt::format("part {} of {} ({})", i + 1, runs.size(), runs[i].folder);
+    progress.describe(place);
+    progress.at(done, work_of(runs[i]));
     const std::filesystem::path path = folder / runs[i].folder;
-    const bool is_kept = is_of(runs[i], path);
-    if (is_kept && std::filesystem::exists(path / "summary.json")) continue;
     CommandLine part{.command = runs[i].command,
                      .arguments = {},
                      .configuration = runs[i].configuration,
                      .output = path,
                      .resume = {},
-                     .quiet = command_line.quiet,
-                     .silent = true};
-    if (is_kept && part.command == "sweep" && has_archive(path)) {
+                     .silent = true,
+                     .whole = &progress};
+    if (is_of(runs[i], path) && part.command == "sweep" && has_archive(path)) {
       part.resume = path;
     } else {
       std::filesystem::remove_all(path);  // what a killed run has left, which cannot go on
       std::filesystem::create_directories(path.parent_path());
     }
-    if (!command_line.quiet) {
-      fmt::print("{} of {}: {} {}\n", i + 1, runs.size(), runs[i].command, runs[i].folder);
-      std::fflush(stdout);
-    }
+    const std::string how_to_go_on =
+        fmt::format("go on with: nlcwfs reproduce --resume {}", folder.string());
     try {
+      if (InterruptWatch::interrupted()) throw RunInterrupted();
       run_part(part);
     } catch (const InputError&) {
       throw;
+    } catch (const RunInterrupted&) {
+      throw RunInterrupted(fmt::format("in {}; {}", place, how_to_go_on));
     } catch (const std::exception& error) {
-      throw std::runtime_error(fmt::format("{}: {}; go on with: nlcwfs reproduce --resume {}",
-                                           runs[i].folder, error.what(), folder.string()));
+      throw std::runtime_error(
+          fmt::format("{}: {}; {}", runs[i].folder, error.what(), how_to_go_on));
     }
+    done += work_of(runs[i]);
   }
 }
 
@@ -113,7 +130,7 @@ void run_reproduce(const CommandLine& command_line) {
   const std::vector<PlannedRun> runs = planned_runs(configuration);
   RunRecord record(command_line);
   const std::filesystem::path& folder = record.folder().path();
-  run_missing(runs, folder, command_line);
+  run_missing(runs, folder);
 
   const ReproducedRuns reproduced(folder);
   const std::vector<Claim> claims = checked_claims(reproduced, figures);
@@ -135,8 +152,9 @@ void run_reproduce(const CommandLine& command_line) {
   }
   fmt::print(
       "\nIn the paper's set-up: {}.\nWith an extended truth and the rule difference: {}.\n"
-      "report.md has every claim and figure.\n{}\n",
-      count_text(claims, Setup::paper), count_text(claims, Setup::extended), record.closing_line());
+      "report.md has every claim and figure.\n",
+      count_text(claims, Setup::paper), count_text(claims, Setup::extended));
+  record.close();
 }
 
 }  // namespace nlcwfs

@@ -6,7 +6,9 @@
 #include "studies/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numeric>
 #include <set>
 
 #include <boost/algorithm/string/split.hpp>
@@ -271,6 +273,46 @@ std::vector<std::string> figures_of(const Configuration& configuration) {
                      fmt::format("a list of {}", fmt::join(reproduced_figures, ", ")));
   }
   return figures;
+}
+
+double work_of(const PlannedRun& run) {
+  const Configuration& configuration = run.configuration;
+  const auto size_of = [&](std::string_view key, double otherwise) {
+    const auto axis = configuration.axis(key);
+    return axis ? double(axis->size()) : otherwise;
+  };
+  const bool is_followed = run.command == "convergence";
+  const double loops = is_followed ? configuration.integer("reconstruction.max_loops") : 8.0;
+  double designs = 1.0;
+  if (run.command == "response") {
+    const bool is_noisy = configuration.numbers("detector.photons").front() > 0.0;
+    designs = size_of("response.frequencies", 16.0) * (1.0 + size_of("response.distances", 0.0)) *
+              (is_noisy ? 2.0 : 1.0);
+  }
+  // Of each pixel across the pupil, squared.
+  double pixels = std::pow(configuration.integer("detector.pupil_pixels"), 2);
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (run.command != "sweep" || !key.name.starts_with("sweep.")) continue;
+    if (key.kind != Kind::axis || !configuration.is_set(key.name)) continue;
+    const std::vector<double> values = *configuration.axis(key.name);
+    if (key.name == "sweep.pupil_pixels") {
+      pixels = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+    } else {
+      designs *= double(values.size());
+    }
+  }
+  const double grid = std::pow(configuration.number("reconstruction.window"), 2) * pixels;
+  // The pupil's light on a detector, along each axis; a matched truth has the grid's own.
+  const double truth = configuration.choice("simulation.truth") == "matched"
+                           ? grid
+                           : std::pow((configuration.number("detector.window") + 1.0) *
+                                          configuration.integer("simulation.pupil_samples"),
+                                      2);
+  const auto planes = double(configuration.lengths("sensor.planes").size());
+  const double wavelengths =
+      configuration.is_set("source.bands") ? configuration.integer("source.wavelengths") : 1.0;
+  return 1e-9 * designs * configuration.integer("screens.count") * planes *
+         (2.0 * loops * grid + 2.0 * wavelengths * truth);
 }
 
 std::vector<PlannedRun> planned_runs(const Configuration& configuration) {

@@ -71,6 +71,10 @@ inline constexpr int more_screens = 16;
 /// @throws InputError where reproduce.figures names one that is not known
 std::vector<std::string> figures_of(const Configuration& configuration);
 
+/// How much a run takes beside others, for predictions of the time left: samples that Fourier
+/// transforms see, in 1e9. Loops are guessed, and the verification of a sweep is left out.
+double work_of(const PlannedRun& run);
+
 /// Everything that these need, in the order of the paper; figures share runs.
 /// @param configuration  gives the sizes (section reproduce), the screens and the search's
 ///                       precision; the paper's set-up is laid over its defaults

@@ -4,14 +4,14 @@
 #include "results/design_summary.hpp"
 #include "results/map_picture.hpp"
 #include "studies/design_text.hpp"
-#include "studies/progress_line.hpp"
+#include "studies/interrupt.hpp"
+#include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
 #include "studies/units.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -109,6 +109,7 @@ Simulation Task::simulation_of(double frequency) const {
 /// What photon and read noise do to the recovered amplitude.
 struct AmplitudeNoise {
   MeanAndError measured;  ///< standard deviation, nm
+  int wavefronts;         ///< that it is of
   double predicted;       ///< of photon noise alone, nm
 };
 
@@ -120,30 +121,36 @@ struct FrequencyResponse {
   double talbot_contrast;     ///< 1/rad, root mean square over the planes
   double effective_contrast;  ///< the same
   std::optional<AmplitudeNoise> noise;
+  int wavefronts;  ///< that it is of
 };
 
 double share_of(const ScreenPerformance& screen) { return screen.wavefront.recovered_share; }
 
 /// How far noise moves the recovered amplitude from what the same wavefronts give without noise.
 AmplitudeNoise noise_of(const Task& task, const Simulation& simulation, const SensorDesign& design,
-                        const Performance& noisy, double contrast) {
+                        const Performance& noisy, double contrast, const ScreenWatch& watch) {
   SensorDesign noise_free = design;
   noise_free.detector.photons = 0.0;
   noise_free.detector.photon_rate = 0.0;
   noise_free.detector.read_noise = 0.0;
   std::vector<double> differences = noisy.samples_of(share_of);
-  const std::vector<double> without = simulation.evaluate(noise_free).samples_of(share_of);
+  const std::vector<double> without = simulation.evaluate(noise_free, watch).samples_of(share_of);
+  differences.resize(std::min(differences.size(), without.size()));
   for (std::size_t i = 0; i < differences.size(); ++i) {
     differences[i] = (differences[i] - without[i]) * task.amplitude_nm();
   }
-  return {standard_deviation_and_error(differences),
+  return {standard_deviation_and_error(differences), static_cast<int>(differences.size()),
           task.nm_per_radian() *
               photon_limited_amplitude_error(design.detector.photons_per_frame(), contrast)};
 }
 
+bool has_noise(const Task& task, const SensorDesign& design) {
+  return design.detector.photons_per_frame() > 0.0 && task.wavefronts > 1;
+}
+
 FrequencyResponse measured(const Task& task, const Simulation& simulation,
-                           const SensorDesign& design, double frequency) {
-  const Performance performance = simulation.evaluate(design);
+                           const SensorDesign& design, double frequency, Progress& progress) {
+  const Performance performance = simulation.evaluate(design, interruptible(progress));
   const auto contrasts =
       sinusoid_contrasts(task.telescope, design.planes, frequency, task.options.source);
   FrequencyResponse response{
@@ -152,9 +159,12 @@ FrequencyResponse measured(const Task& task, const Simulation& simulation,
       .loops = performance.mean_of(performance_metric("fractional_loops")),
       .talbot_contrast = rms_contrast(contrasts, &SinusoidContrast::talbot),
       .effective_contrast = rms_contrast(contrasts, &SinusoidContrast::effective),
-      .noise = {}};
-  if (design.detector.photons_per_frame() > 0.0 && task.wavefronts > 1) {
-    response.noise = noise_of(task, simulation, design, performance, response.effective_contrast);
+      .noise = {},
+      .wavefronts = static_cast<int>(performance.screens.size())};
+  if (has_noise(task, design)) {
+    response.noise = noise_of(task, simulation, design, performance, response.effective_contrast,
+                              interruptible(progress));
+    response.wavefronts = response.noise->wavefronts;
   }
   return response;
 }
@@ -162,21 +172,28 @@ FrequencyResponse measured(const Task& task, const Simulation& simulation,
 /// Of each design, of each frequency.
 using Responses = std::vector<std::vector<FrequencyResponse>>;
 
-Responses measured(const Task& task, bool quiet) {
-  ProgressLine progress(quiet);
-  const auto start = std::chrono::steady_clock::now();
+/// At each of the task's frequencies. An interrupt ends it with those that are done, or with the
+/// first alone in as few wavefronts as give a mean its error; the task then has no others.
+Responses measured(Task& task, const Progress* whole) {
+  double evaluations = 0.0;
+  for (const SensorDesign& design : task.designs) evaluations += has_noise(task, design) ? 2 : 1;
+  Progress progress("response", evaluations * double(task.frequencies.size()) * task.wavefronts,
+                    "wavefronts", "", whole);
   Responses responses(task.designs.size());
-  double done = 0.0;
-  const auto all = double(task.frequencies.size() * task.designs.size());
-  for (const double frequency : task.frequencies) {
-    const Simulation simulation = task.simulation_of(frequency);
+  for (std::size_t i = 0; i < task.frequencies.size(); ++i) {
+    const Simulation simulation = task.simulation_of(task.frequencies[i]);
+    int least = task.wavefronts;
     for (std::size_t design = 0; design < task.designs.size(); ++design) {
-      responses[design].push_back(measured(task, simulation, task.designs[design], frequency));
-      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-      progress.show(fmt::format("response: {:g} cycles per pupil, {} left", frequency,
-                                duration_text(elapsed.count() * (all / ++done - 1.0))));
+      responses[design].push_back(
+          measured(task, simulation, task.designs[design], task.frequencies[i], progress));
+      least = std::min(least, responses[design].back().wavefronts);
     }
+    if (!InterruptWatch::interrupted()) continue;
+    const bool is_whole = least == task.wavefronts;
+    task.frequencies.resize(is_whole ? i + 1 : std::max(i, std::size_t{1}));
+    if (i == 0) task.wavefronts = least;
   }
+  for (auto& of_design : responses) of_design.resize(task.frequencies.size());
   return responses;
 }
 
@@ -354,9 +371,14 @@ std::vector<std::string> write_pictures(const Task& task, const Responses& respo
 
 void run_response(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
-  const Task task(configuration);
+  Task task(configuration);
+  const std::size_t asked = task.frequencies.size();
   RunRecord record(command_line);
-  const Responses responses = measured(task, command_line.quiet);
+  const Responses responses = measured(task, command_line.whole);
+  if (task.frequencies.size() < asked || task.wavefronts < configuration.integer("screens.count")) {
+    record.note_interrupted(fmt::format("{} of {} frequencies were done in {} wavefronts each",
+                                        task.frequencies.size(), asked, task.wavefronts));
+  }
 
   record.folder().write("response.csv", response_table(task, responses));
   std::vector<std::string> notes = write_pictures(task, responses, record.folder());
@@ -390,7 +412,8 @@ void run_response(const CommandLine& command_line) {
     record.print("\nPairs of planes at {} distances are in response.csv and response-map-*.svg.\n",
                  task.distances.size());
   }
-  record.print("\n{}\n", record.closing_line());
+  record.print("\n");
+  record.close();
 }
 
 }  // namespace nlcwfs

@@ -15,6 +15,11 @@ RunRecord::RunRecord(const CommandLine& command_line)
   if (!command_line.resume) folder_.write("config.cfg", command_line.configuration.dump());
 }
 
+void RunRecord::note_interrupted(const std::string& what) {
+  if (command_line_.silent) throw RunInterrupted(fmt::format("interrupted when {}", what));
+  interruption_ = what;
+}
+
 void RunRecord::write_summary(const nlohmann::ordered_json& results) const {
   nlohmann::ordered_json config;
   for (const ConfigurationKey& key : configuration_keys()) {
@@ -23,14 +28,20 @@ void RunRecord::write_summary(const nlohmann::ordered_json& results) const {
                            ? nlohmann::ordered_json(configuration.value_text(key.name))
                            : nlohmann::ordered_json(nullptr);
   }
-  nlohmann::ordered_json summary{
-      {"command", command_line_.command}, {"version", version()}, {"config", config}};
+  nlohmann::ordered_json summary{{"command", command_line_.command},
+                                 {"version", version()},
+                                 {"interrupted", !interruption_.empty()},
+                                 {"config", config}};
   summary.update(results);
   folder_.write("summary.json", summary.dump(2) + "\n");
 }
 
-std::string RunRecord::closing_line() const {
-  return fmt::format("Results are in {}.", folder_.path().string());
+void RunRecord::close() const {
+  if (!interruption_.empty()) {
+    print("Interrupted when {}: the results are of these.\n", interruption_);
+  }
+  print("Results are in {}.\n", folder_.path().string());
+  if (!interruption_.empty()) throw RunInterrupted();
 }
 
 }  // namespace nlcwfs

@@ -3,6 +3,7 @@
 #include "results/archive.hpp"
 #include "results/output_folder.hpp"
 #include "studies/command_line.hpp"
+#include "studies/interrupt.hpp"
 
 #include <string>
 #include <utility>
@@ -12,7 +13,8 @@
 
 namespace nlcwfs {
 
-/// What every run leaves in its output folder: config.cfg, archive.sqlite, summary.json.
+/// What every run leaves in its output folder: config.cfg, archive.sqlite, summary.json. While it
+/// lives, an interrupt is noted: there is something to come to a clean end with.
 class RunRecord {
  public:
   /// Makes the folder with the configuration and an empty archive; with --resume it takes those of
@@ -24,8 +26,13 @@ class RunRecord {
   /// The run's evaluations.
   Archive& archive() { return archive_; }
 
-  /// Writes summary.json: command, version, config (every key with its text, null where not set),
-  /// then `results`.
+  /// Notes that an interrupt has left the run's results with less than was asked for.
+  /// @param what  for people: "5 of 16 screens are done"
+  /// @throws RunInterrupted at once in a silent part of another run, which does such a part anew
+  void note_interrupted(const std::string& what);
+
+  /// Writes summary.json: command, version, whether the run was interrupted, config (every key with
+  /// its text, null where not set), then `results`.
   void write_summary(const nlohmann::ordered_json& results) const;
 
   /// Prints on standard output, unless the run is a silent part of another.
@@ -34,11 +41,14 @@ class RunRecord {
     if (!command_line_.silent) fmt::print(format, std::forward<Values>(values)...);
   }
 
-  /// "Results are in results/optimize-1."
-  std::string closing_line() const;
+  /// Prints where the results are: "Results are in results/optimize-1."
+  /// @throws RunInterrupted where that was noted
+  void close() const;
 
  private:
   const CommandLine& command_line_;
+  InterruptWatch watch_;
+  std::string interruption_;  // empty without one
   OutputFolder folder_;
   Archive archive_;
 };

@@ -110,8 +110,9 @@ void run_scale(const CommandLine& command_line) {
                planes_table(scaled, target, target_seeing));
   record.print(
       "Equal Fresnel numbers and D/r0: the same loops, and the same wavefront error in waves\n"
-      "(in nm it is multiplied by {:.4g}). scaled.cfg evaluates the new design.\n{}\n",
-      target.wavelength / telescope.wavelength, record.closing_line());
+      "(in nm it is multiplied by {:.4g}). scaled.cfg evaluates the new design.\n",
+      target.wavelength / telescope.wavelength);
+  record.close();
 }
 
 }  // namespace nlcwfs

@@ -4,6 +4,7 @@
 #include "results/design_summary.hpp"
 #include "results/fits_cube.hpp"
 #include "studies/design_text.hpp"
+#include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/studies.hpp"
@@ -55,8 +56,22 @@ void run_screens(const CommandLine& command_line) {
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   std::vector<std::string> notes;
-  std::vector<PhaseScreen> screens = screens_of(configuration, notes);
+  // From before the screens, of which those that are drawn are written.
+  const InterruptWatch watch;
+  std::vector<PhaseScreen> screens = [&] {
+    const int asked = configuration.integer("screens.count");
+    Progress progress("screens", asked, "screens", "then their statistics");
+    return screens_of(configuration, notes, asked, [&](int drawn) {
+      progress.advance(drawn);
+      return !InterruptWatch::interrupted();
+    });
+  }();
   RunRecord record(command_line);
+  if (configuration.text("screens.file").empty() &&
+      static_cast<int>(screens.size()) < configuration.integer("screens.count")) {
+    record.note_interrupted(fmt::format("{} of {} screens were drawn", screens.size(),
+                                        configuration.integer("screens.count")));
+  }
 
   const auto samples = static_cast<int>(screens.front().rows());
   const PupilMask mask = pupil_mask(samples, telescope.central_obscuration);
@@ -99,7 +114,8 @@ void run_screens(const CommandLine& command_line) {
   fmt::print("  {:<34} {:>20} {:>28.4g}\n", "piston removed", with_error(variance), expected);
   fmt::print("  {:<34} {:>20} {:>28.4g}\n", "piston, tip and tilt removed",
              with_error(tilt_removed), expected_tilt_removed);
-  fmt::print("\n{}\n", record.closing_line());
+  fmt::print("\n");
+  record.close();
 }
 
 }  // namespace nlcwfs

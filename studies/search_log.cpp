@@ -1,8 +1,9 @@
 #include "studies/search_log.hpp"
 
 #include "results/design_summary.hpp"
+#include "studies/evaluation_log.hpp"
+#include "studies/interrupt.hpp"
 
-#include <algorithm>
 #include <any>
 #include <utility>
 
@@ -30,27 +31,34 @@ std::vector<std::string> columns(const std::vector<DesignMetric>& objectives) {
 
 SearchLog::SearchLog(std::string stage, const DesignSpace& space, const Telescope& telescope,
                      double fried_parameter, const EvaluatorOptions& limits, Archive& archive,
-                     bool quiet, std::vector<DesignMetric> objectives)
+                     std::string then, const Progress* whole, std::vector<DesignMetric> objectives)
     : stage_(std::move(stage)),
       space_(space),
       telescope_(telescope),
       fried_parameter_(fried_parameter),
-      limits_(limits),
       objectives_(std::move(objectives)),
       archive_(archive),
-      progress_(quiet),
-      table_(columns(objectives_)) {}
+      progress_(stage_, limits.budget, "designs", std::move(then), whole),
+      table_(columns(objectives_)),
+      budget_(limits.budget) {
+  if (limits.time_limit) progress_.must_end_by(*limits.time_limit);
+}
+
+ScreenWatch SearchLog::interruptible() const {
+  return [this] { return evaluations_ == 0 || !InterruptWatch::interrupted(); };
+}
 
 void SearchLog::add(const EvaluationRecord& evaluation) {
   const SensorDesign design = space_.design(evaluation.point);
   const bool failed = !evaluation.failure.empty();
   const auto* tried = std::any_cast<TriedDesign>(&evaluation.detail);
-  archive_.add({.stage = stage_,
-                .design = to_json(design, telescope_, fried_parameter_).dump(),
-                .cost = evaluation.cost,
-                .failure = evaluation.failure,
-                .seconds = evaluation.seconds,
-                .performance = failed ? "" : to_json(pooled(tried->performances)).dump()});
+  archive_and_log(archive_,
+                  {.stage = stage_,
+                   .design = to_json(design, telescope_, fried_parameter_).dump(),
+                   .cost = evaluation.cost,
+                   .failure = evaluation.failure,
+                   .seconds = evaluation.seconds,
+                   .performance = failed ? "" : to_json(pooled(tried->performances)).dump()});
 
   table_.row().add(evaluation.index).add(fmt::format("{:.7g}", fmt::join(design.planes, ",")));
   for (const DesignProperty& property : design_properties()) table_.add(property.get(design));
@@ -83,14 +91,12 @@ void SearchLog::add(const EvaluationRecord& evaluation) {
 }
 
 void SearchLog::show_progress(const EvaluationRecord& evaluation) {
-  const std::chrono::duration<double> since_start = std::chrono::steady_clock::now() - start_;
-  const double elapsed = since_start.count();
-  double left = elapsed / evaluation.index * (limits_.budget - evaluation.index);
-  if (limits_.time_limit) left = std::min(left, std::max(0.0, *limits_.time_limit - elapsed));
-  const std::string lowest =
-      objectives_.empty() ? fmt::format(", lowest cost {:.4g}", evaluation.best_cost) : "";
-  progress_.show(fmt::format("{}: design {} of {}{}, {} left, then the verification", stage_,
-                             evaluation.index, limits_.budget, lowest, duration_text(left)));
+  evaluations_ = evaluation.index;
+  if (objectives_.empty()) {
+    progress_.describe(fmt::format("{} of {} designs, lowest cost {:.4g}", evaluation.index,
+                                   budget_, evaluation.best_cost));
+  }
+  progress_.at(evaluation.index);
 }
 
 }  // namespace nlcwfs

@@ -7,9 +7,8 @@
 #include "optimizer/evaluator.hpp"
 #include "results/archive.hpp"
 #include "results/csv_table.hpp"
-#include "studies/progress_line.hpp"
+#include "studies/progress.hpp"
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -19,10 +18,16 @@ namespace nlcwfs {
 class SearchLog {
  public:
   /// @param stage  for the archive and the progress line: "search"
+  /// @param then, whole  see Progress
   /// @param objectives  of a search with several, for the table
   SearchLog(std::string stage, const DesignSpace& space, const Telescope& telescope,
-            double fried_parameter, const EvaluatorOptions& limits, Archive& archive, bool quiet,
+            double fried_parameter, const EvaluatorOptions& limits, Archive& archive,
+            std::string then, const Progress* whole = nullptr,
             std::vector<DesignMetric> objectives = {});
+
+  /// Ends a design at an interrupt, but not before the first one of the search is done, so that
+  /// there is a result.
+  ScreenWatch interruptible() const;
 
   /// Archives an evaluation, and shows how far the search is.
   void add(const EvaluationRecord& evaluation);
@@ -41,13 +46,13 @@ class SearchLog {
   const DesignSpace& space_;
   const Telescope& telescope_;
   double fried_parameter_;
-  const EvaluatorOptions& limits_;
   std::vector<DesignMetric> objectives_;
   Archive& archive_;
-  ProgressLine progress_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Progress progress_;
   CsvTable table_;
   long reconstructions_ = 0;
+  int budget_;
+  int evaluations_ = 0;
   int given_up_ = 0;
 };
 

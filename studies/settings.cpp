@@ -62,10 +62,11 @@ bool is_matched(const Configuration& configuration) {
 
 std::vector<PhaseScreen> simulated_screens(const Configuration& configuration,
                                            const Telescope& telescope, const Seeing& seeing,
-                                           int samples, int count, std::string_view seed_key) {
+                                           int samples, int count, std::string_view seed_key,
+                                           const std::function<bool(int)>& watch = {}) {
   return generate_screens(
       TurbulenceScreenGenerator(seeing, samples, telescope.diameter, configuration.seed(seed_key)),
-      count);
+      count, watch);
 }
 
 /// By default four times the search's, so that the verification adds little noise of its own.
@@ -102,7 +103,8 @@ std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telesc
 /// The wavefronts of the section screens in a seeing.
 std::vector<PhaseScreen> screens_in(const Configuration& configuration, const Telescope& telescope,
                                     const Seeing& seeing, std::vector<std::string>& notes,
-                                    int most = std::numeric_limits<int>::max()) {
+                                    int most = std::numeric_limits<int>::max(),
+                                    const std::function<bool(int)>& watch = {}) {
   const int samples = truth_samples(configuration);
   const std::size_t seeings = seeings_of(configuration, telescope).size();
   if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
@@ -115,7 +117,7 @@ std::vector<PhaseScreen> screens_in(const Configuration& configuration, const Te
   const int count = configuration.integer("screens.count");
   require_memory("screens.count", std::to_string(count), double(seeings) * count, samples);
   return simulated_screens(configuration, telescope, seeing, samples, std::min(count, most),
-                           "screens.seed");
+                           "screens.seed", watch);
 }
 
 /// What replaces the design's light; nothing where there is one light alone.
@@ -487,9 +489,11 @@ SimulationOptions simulation_options_of(const Configuration& configuration,
 }
 
 std::vector<PhaseScreen> screens_of(const Configuration& configuration,
-                                    std::vector<std::string>& notes, int most) {
+                                    std::vector<std::string>& notes, int most,
+                                    const std::function<bool(int)>& watch) {
   const Telescope telescope = telescope_of(configuration);
-  return screens_in(configuration, telescope, seeing_of(configuration, telescope), notes, most);
+  return screens_in(configuration, telescope, seeing_of(configuration, telescope), notes, most,
+                    watch);
 }
 
 DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,

@@ -11,6 +11,7 @@
 #include "objectives/design_trial.hpp"
 #include "studies/configuration.hpp"
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -82,9 +83,11 @@ void require_memory(std::string_view key, const std::string& value, double count
 /// truth's samples.
 /// @param notes  gets a line where screens had to be resampled
 /// @param most   no more than the first so many are simulated; a file's are read all the same
+/// @param watch  see generate_screens
 std::vector<PhaseScreen> screens_of(const Configuration& configuration,
                                     std::vector<std::string>& notes,
-                                    int most = std::numeric_limits<int>::max());
+                                    int most = std::numeric_limits<int>::max(),
+                                    const std::function<bool(int)>& watch = {});
 
 /// What designs are tried under: the simulations of the sections screens and simulation in each
 /// seeing, with each light; precision and notes as above.

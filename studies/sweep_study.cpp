@@ -4,14 +4,16 @@
 #include "results/design_summary.hpp"
 #include "results/json_numbers.hpp"
 #include "studies/design_text.hpp"
+#include "studies/evaluation_log.hpp"
 #include "studies/grid_picture.hpp"
 #include "studies/interrupt.hpp"
-#include "studies/progress_line.hpp"
+#include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
 #include "studies/sweep_grid.hpp"
+#include "studies/text.hpp"
 #include "studies/trial_summary.hpp"
 #include "studies/verified_ranking.hpp"
 
@@ -117,10 +119,11 @@ Outcome outcome_of(const ArchivedEvaluation& evaluation, const Task& task) {
   return outcome;
 }
 
-/// Tries a design; one that cannot be tried has a failure.
+/// Tries a design; one that cannot be tried has a failure. Nothing where an interrupt ended it.
 /// @param elapsed_before  of the sweep before `sweep_stopwatch`, s
-ArchivedEvaluation evaluation_of(const GridDesign& design, const Task& task,
-                                 const Stopwatch& sweep_stopwatch, double elapsed_before) {
+std::optional<ArchivedEvaluation> evaluation_of(const GridDesign& design, const Task& task,
+                                                const Stopwatch& sweep_stopwatch,
+                                                double elapsed_before) {
   const Stopwatch stopwatch;
   ArchivedEvaluation evaluation{
       .stage = "sweep",
@@ -131,7 +134,9 @@ ArchivedEvaluation evaluation_of(const GridDesign& design, const Task& task,
       .performance = {},
       .key = design.key};
   try {
-    const TriedDesign tried = task.trial.run(design.design);
+    const TriedDesign tried =
+        task.trial.run(design.design, {}, [] { return !InterruptWatch::interrupted(); });
+    if (static_cast<int>(tried.costs.size()) < task.trial.screen_count()) return std::nullopt;
     const MeanAndError cost = mean_and_standard_error(tried.costs);
     if (!std::isfinite(cost.mean)) {
       throw std::runtime_error(fmt::format("the cost is {}", cost.mean));
@@ -162,8 +167,9 @@ class Sweep {
   /// @throws InputError where the archive is of another command
   Sweep(const Task& task, RunRecord& record);
 
-  /// Tries what is missing; Ctrl-C ends it early.
-  void run(bool quiet);
+  /// Tries what is missing; an interrupt ends it early.
+  /// @param whole  see Progress
+  void run(const Progress* whole);
 
   const std::vector<GridDesign>& designs() const { return designs_; }
   /// In the order of the designs; nothing where the sweep did not get there.
@@ -175,7 +181,6 @@ class Sweep {
 
  private:
   void add(std::size_t design, const ArchivedEvaluation& evaluation);
-  std::string progress_text(std::size_t tried, double elapsed) const;
 
   const Task& task_;
   RunRecord& record_;
@@ -216,33 +221,26 @@ double Sweep::elapsed() const {
   return elapsed;
 }
 
-void Sweep::run(bool quiet) {
-  const InterruptWatch watch;
-  ProgressLine progress(quiet);
+void Sweep::run(const Progress* whole) {
+  Progress progress("sweep", double(designs_.size()), "designs", "then the verification", whole);
+  progress.starts_at(double(done_));
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < designs_.size(); ++i) {
     if (!outcomes_[i]) missing.push_back(i);
   }
-  const std::size_t done_before = done_;
   const double elapsed_before = elapsed();
   const Stopwatch stopwatch;
   for (std::size_t first = 0; first < missing.size(); first += batch_size) {
     tbb::parallel_for(first, std::min(first + batch_size, missing.size()), [&](std::size_t i) {
       if (InterruptWatch::interrupted()) return;
-      const ArchivedEvaluation evaluation =
-          evaluation_of(designs_[missing[i]], task_, stopwatch, elapsed_before);
+      const auto evaluation = evaluation_of(designs_[missing[i]], task_, stopwatch, elapsed_before);
+      if (!evaluation) return;
       const std::scoped_lock lock(lock_);
-      record_.archive().add(evaluation);
-      add(missing[i], evaluation);
-      progress.show(progress_text(done_ - done_before, stopwatch.seconds()));
+      archive_and_log(record_.archive(), *evaluation);
+      add(missing[i], *evaluation);
+      progress.advance();
     });
   }
-}
-
-std::string Sweep::progress_text(std::size_t tried, double elapsed) const {
-  const double left = elapsed / double(tried) * double(designs_.size() - done_);
-  return fmt::format("sweep: design {} of {}, {} left, then the verification", done_,
-                     designs_.size(), duration_text(left));
 }
 
 /// The cheapest designs that keep the limits, or come closest, best first; `most` at most.
@@ -389,22 +387,30 @@ Json grid_object(const Task& task, const std::vector<const Outcome*>& points) {
   return object;
 }
 
+std::string how_to_go_on(const RunRecord& record) {
+  return fmt::format("go on with: nlcwfs sweep --resume {}", record.folder().path().string());
+}
+
 /// On fresh screens; what an earlier run has archived is not archived again.
 std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const Sweep& sweep,
-                                     const Task& task, RunRecord& record, bool quiet) {
+                                     const Task& task, RunRecord& record, const Progress* whole) {
   std::set<std::string> archived;
   for (const ArchivedEvaluation& evaluation : record.archive().evaluations()) {
     if (evaluation.stage == "verify") archived.insert(evaluation.key);
   }
   std::vector<TriedDesign> verified;
+  Progress progress = verification_progress(task.verification, best.size(), "", whole);
   for (const std::size_t design : best) {
     const GridDesign& candidate = sweep.designs()[design];
+    const ScreenWatch watch = interruptible(progress);
     verified.push_back(
         archived.contains(candidate.key)
-            ? task.verification.run(candidate.design)
-            : verified_design(candidate.design,
-                              fmt::format("design {} of {}", verified.size() + 1, best.size()),
-                              task.verification, record.archive(), quiet));
+            ? task.verification.run(candidate.design, {}, watch)
+            : verified_design(candidate.design, task.verification, record.archive(), watch));
+    const bool is_whole =
+        static_cast<int>(verified.back().costs.size()) == task.verification.screen_count();
+    if (is_whole && (!InterruptWatch::interrupted() || verified.size() == best.size())) continue;
+    throw RunInterrupted(fmt::format("in the verification; {}", how_to_go_on(record)));
   }
   return ranked(std::move(verified));
 }
@@ -439,21 +445,19 @@ void run_sweep(const CommandLine& command_line) {
   const Stopwatch stopwatch;
   const Task task(configuration);
   RunRecord record(command_line);
-  const std::string folder = record.folder().path().string();
   Sweep sweep(task, record);
   const std::size_t taken_over = sweep.done();
   const double seconds_before = sweep.elapsed();
-  sweep.run(command_line.quiet);
+  sweep.run(command_line.whole);
   if (!sweep.is_complete()) {
-    throw std::runtime_error(
-        fmt::format("interrupted with {} of {} designs done; go on with: nlcwfs sweep --resume {}",
-                    sweep.done(), sweep.designs().size(), folder));
+    throw RunInterrupted(fmt::format("{} of {} designs are done; {}", sweep.done(),
+                                     sweep.designs().size(), how_to_go_on(record)));
   }
 
   const std::vector<const Outcome*> points = outcomes_of_points(task, sweep);
   record.folder().write("sweep.csv", points_table(task, points));
   const std::vector<RankedDesign> ranking =
-      ranking_of(best_of(sweep, task.candidates), sweep, task, record, command_line.quiet);
+      ranking_of(best_of(sweep, task.candidates), sweep, task, record, command_line.whole);
   const TriedDesign& best = ranking.front().verified;
   // The archive has its means alone; the same screens give the same again.
   const TriedDesign on_search_screens = task.trial.run(best.design);
@@ -506,9 +510,10 @@ void run_sweep(const CommandLine& command_line) {
       task.verification.conditions().front().simulation->truth_samples(),
       performance_table({{"sweep's screens", &search_performance, on_search_screens.costs},
                          {"fresh screens", &performance, best.costs}}));
-  record.print("{}\n{}{}\n{}\n", conditions_table(best, task.verification),
+  record.print("{}\n{}{}\n", conditions_table(best, task.verification),
                ranking_text(ranking, "The sweep"),
-               captured_energy_warnings(best.design, performance), record.closing_line());
+               captured_energy_warnings(best.design, performance));
+  record.close();
 }
 
 }  // namespace nlcwfs

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -81,6 +84,13 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     constexpr std::size_t wrong_section = 3;
     return has_section ? std::min(distance(word, candidate), last + wrong_section) : last;
   });
+}
+
+std::string duration_text(double seconds) {
+  const long whole = std::lround(seconds);
+  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+  if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} s", whole);
 }
 
 }  // namespace nlcwfs

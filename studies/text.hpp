@@ -23,6 +23,9 @@ std::string one_line(std::string_view text);
 /// must.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
+/// "1 h 05 min", "2 min 10 s", "45 s".
+std::string duration_text(double seconds);
+
 /// The word that a user most likely meant: the one with the smallest edit distance to `word`; the
 /// first among equals. A word without a dot is held against what stands behind the last dot
 /// (`diameter` means `telescope.diameter`), and an abbreviation is near what it abbreviates.

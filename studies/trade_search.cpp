@@ -7,9 +7,9 @@
 #include "studies/interrupt.hpp"
 #include "studies/search_log.hpp"
 #include "studies/settings.hpp"
+#include "studies/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -21,8 +21,6 @@
 
 namespace nlcwfs {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double nm = 1e-9;
 
@@ -200,13 +198,13 @@ TradeSearch::TradeSearch(const Configuration& configuration)
   if (const auto point = space.point_of(configured)) options.starts.push_back(*point);
 }
 
-TradeResult TradeSearch::run(Archive& archive, bool quiet) const {
+TradeResult TradeSearch::run(Archive& archive) const {
   TradeResult result;
   const InterruptWatch watch;
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   ParetoOptions watched = options;
   SearchLog log("search", space, telescope, seeing.fried_parameter, watched.evaluation, archive,
-                quiet, objectives);
+                "then the verification", nullptr, objectives);
   std::stop_source stop;
   watched.evaluation.stop = stop.get_token();
 
@@ -221,9 +219,9 @@ TradeResult TradeSearch::run(Archive& archive, bool quiet) const {
     }
     if (InterruptWatch::interrupted()) stop.request_stop();
   };
-  DesignProblem problem(space, trial, objectives);
+  DesignProblem problem(space, trial, objectives, log.interruptible());
   result.search = pareto_search(problem, watched);
-  result.search_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  result.search_seconds = stopwatch.seconds();
   result.reconstructions = log.reconstructions();
   result.table = log.table();
 
@@ -231,12 +229,12 @@ TradeResult TradeSearch::run(Archive& archive, bool quiet) const {
     result.reference_is_of_the_run = result.reference_is_of_the_run || !reference_[i];
     result.reference_point.push_back(objectives[i].minimised(reference_[i].value_or(worst[i])));
   }
-  verify_front(result, archive, quiet);
+  verify_front(result, archive);
   judge_front(result);
   return result;
 }
 
-void TradeSearch::verify_front(TradeResult& result, Archive& archive, bool quiet) const {
+void TradeSearch::verify_front(TradeResult& result, Archive& archive) const {
   const std::vector<EvaluatedDesign>& front = result.search.front;
   std::vector<std::string> groups;
   for (const EvaluatedDesign& found : front) {
@@ -247,16 +245,19 @@ void TradeSearch::verify_front(TradeResult& result, Archive& archive, bool quiet
   const std::vector<std::size_t> chosen = evenly_chosen(groups, most_verified_);
   // One that ended the search does not end this too.
   const bool was_interrupted = InterruptWatch::interrupted();
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (!was_interrupted && i > 0 && InterruptWatch::interrupted()) {
-      result.verification_interrupted = true;
-      return;
-    }
-    const EvaluatedDesign& found = front[chosen[i]];
+  result.chosen_count = chosen.size();
+  Progress progress = verification_progress(verification, chosen.size());
+  for (const std::size_t i : chosen) {
+    const EvaluatedDesign& found = front[i];
     TradedDesign traded;
-    traded.verified = verified_design(space.design(found.point),
-                                      fmt::format("design {} of {}", i + 1, chosen.size()),
-                                      verification, archive, quiet);
+    traded.verified =
+        verified_design(space.design(found.point), verification, archive,
+                        was_interrupted ? counted(progress) : interruptible(progress));
+    const std::size_t screens = traded.verified.costs.size();
+    result.reconstructions += static_cast<long>(verification.conditions().size() * screens);
+    const bool is_whole = static_cast<int>(screens) == verification.screen_count();
+    result.verification_interrupted = !is_whole;
+    if (!is_whole && !result.front.empty()) return;
     traded.evaluated = {.point = found.point,
                         .key = found.key,
                         .cost = mean_and_standard_error(traded.verified.costs).mean,
@@ -267,8 +268,10 @@ void TradeSearch::verify_front(TradeResult& result, Archive& archive, bool quiet
       traded.evaluated.objectives.push_back(objective.minimised(traded.objectives.back().mean));
     }
     result.front.push_back(std::move(traded));
-    result.reconstructions +=
-        static_cast<long>(verification.conditions().size()) * verification.screen_count();
+    if (!was_interrupted && InterruptWatch::interrupted()) {
+      result.verification_interrupted = !is_whole || result.front.size() < chosen.size();
+      return;
+    }
   }
 }
 

@@ -54,6 +54,7 @@ struct TradeResult {
   /// For each objective but the first: the first objective's best under ever wider bounds on it.
   std::vector<std::vector<BoundedBest>> bests;
   bool verification_interrupted = false;  ///< whether Ctrl-C left designs of the front unverified
+  std::size_t chosen_count = 0;           ///< designs of the front that were to be verified
   long reconstructions = 0;               ///< the verification included
   double search_seconds = 0.0;            ///< without the verification, s
   std::string table;                      ///< CSV of the designs of the search
@@ -69,9 +70,10 @@ class TradeSearch {
   /// @throws InputError where values do not go together
   explicit TradeSearch(const Configuration& configuration);
 
-  /// The search, and the verification of its front on fresh screens. Ctrl-C ends the search with
-  /// the front so far, and the verification with the designs so far.
-  TradeResult run(Archive& archive, bool quiet) const;
+  /// The search, and the verification of its front on fresh screens. An interrupt of the search
+  /// ends it with the front so far, which is verified all the same; one of the verification ends it
+  /// with the designs so far, or the first alone on the screens that are done.
+  TradeResult run(Archive& archive) const;
 
   const Telescope telescope;                   ///< that designs are for
   const Seeing seeing;                         ///< the first, where there are several
@@ -83,7 +85,7 @@ class TradeSearch {
   const DesignTrial verification;              ///< on fresh screens
 
  private:
-  void verify_front(TradeResult& result, Archive& archive, bool quiet) const;
+  void verify_front(TradeResult& result, Archive& archive) const;
   void judge_front(TradeResult& result) const;
 
   /// As figures to be minimised; nothing for what the first populations say.

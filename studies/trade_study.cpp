@@ -2,16 +2,16 @@
 #include "results/design_summary.hpp"
 #include "results/scatter_picture.hpp"
 #include "studies/design_text.hpp"
-#include "studies/progress_line.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
+#include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
+#include "studies/text.hpp"
 #include "studies/trade_search.hpp"
 #include "studies/trial_summary.hpp"
 #include "studies/units.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <map>
 #include <set>
@@ -203,7 +203,7 @@ std::string search_text(const TradeSearch& task, const TradeResult& result,
   }
   text += fmt::format(
       " were tried on {} fresh screens, true field {} samples across the pupil; {} stand there.\n",
-      task.verification.screen_count(),
+      result.front.empty() ? 0 : result.front.front().verified.costs.size(),
       task.verification.conditions().front().simulation->truth_samples(), result.standing_count());
   return text;
 }
@@ -309,15 +309,25 @@ std::string hypervolume_text(const TradeSearch& task, const TradeResult& result)
           : "");
 }
 
+void note_interruption(RunRecord& record, const TradeSearch& task, const TradeResult& result) {
+  if (result.verification_interrupted) {
+    record.note_interrupted(
+        fmt::format("{} of {} designs were verified", result.front.size(), result.chosen_count));
+  } else if (result.search.termination == Termination::stop_requested) {
+    record.note_interrupted(fmt::format("{} of {} designs were tried", result.search.evaluations,
+                                        task.options.evaluation.budget));
+  }
+}
+
 }  // namespace
 
 void run_trade(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const TradeSearch task(configuration);
   RunRecord record(command_line);
-  const TradeResult result = task.run(record.archive(), command_line.quiet);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const TradeResult result = task.run(record.archive());
+  note_interruption(record, task, result);
 
   record.folder().write("front.csv", front_table(task, result));
   record.folder().write("search.csv", result.table);
@@ -344,7 +354,7 @@ void run_trade(const CommandLine& command_line) {
                         {"cache_hits", result.search.cache_hits},
                         {"failures", result.search.failures},
                         {"reconstructions", result.reconstructions},
-                        {"wall_seconds", elapsed.count()},
+                        {"wall_seconds", stopwatch.seconds()},
                         {"search_seconds", result.search_seconds},
                         {"termination", to_string(result.search.termination)},
                         {"verification_interrupted", result.verification_interrupted}});
@@ -357,8 +367,8 @@ void run_trade(const CommandLine& command_line) {
                bests_text(task, result));
   }
   if (no_picture) fmt::print("note: there is no picture of the front: {}\n", *no_picture);
-  fmt::print("{}\n{}{}\n", knee_text(task, result), hypervolume_text(task, result),
-             record.closing_line());
+  fmt::print("{}\n{}", knee_text(task, result), hypervolume_text(task, result));
+  record.close();
 }
 
 }  // namespace nlcwfs

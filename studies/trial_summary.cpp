@@ -44,6 +44,12 @@ std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial)
   return table;
 }
 
+void note_missing_screens(RunRecord& record, const TriedDesign& tried, const DesignTrial& trial) {
+  const auto done = static_cast<int>(tried.costs.size());
+  if (done == trial.screen_count()) return;
+  record.note_interrupted(fmt::format("{} of {} screens were done", done, trial.screen_count()));
+}
+
 std::string screens_table(const Performance& performance) {
   std::vector<std::string> columns{"screen"};
   for (const PerformanceMetric& metric : performance_metrics()) columns.emplace_back(metric.name);

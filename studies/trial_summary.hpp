@@ -1,6 +1,7 @@
 #pragma once
 
 #include "objectives/design_trial.hpp"
+#include "studies/run_record.hpp"
 
 #include <string>
 
@@ -17,6 +18,9 @@ nlohmann::ordered_json to_json(const TriedDesign& tried, const DesignTrial& tria
 /// For people, where there are several conditions: which, and how the design did under each; empty
 /// where there is one.
 std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial);
+
+/// Notes an interrupted run where a design was not tried on all screens of the trial.
+void note_missing_screens(RunRecord& record, const TriedDesign& tried, const DesignTrial& trial);
 
 /// One line for each screen, one column for each metric, as CSV.
 std::string screens_table(const Performance& performance);

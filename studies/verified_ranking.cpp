@@ -3,7 +3,7 @@
 #include "objectives/design_space.hpp"
 #include "results/design_summary.hpp"
 #include "studies/design_text.hpp"
-#include "studies/progress_line.hpp"
+#include "studies/evaluation_log.hpp"
 #include "studies/stopwatch.hpp"
 #include "studies/trial_summary.hpp"
 #include "studies/units.hpp"
@@ -36,15 +36,21 @@ MeanAndError cost_above_best(const RankedDesign& ranked) {
 
 }  // namespace
 
-TriedDesign verified_design(const SensorDesign& design, const std::string& name,
-                            const DesignTrial& verification, Archive& archive, bool quiet) {
-  ProgressLine progress(quiet);
-  progress.show(
-      fmt::format("verification: {} on {} fresh screens", name, verification.screen_count()));
+Progress verification_progress(const DesignTrial& verification, std::size_t designs,
+                               std::string then, const Progress* whole) {
+  const std::size_t conditions = verification.conditions().size();
+  return {"verification", double(designs * conditions) * verification.screen_count(),
+          "fresh screens", std::move(then), whole};
+}
+
+TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verification,
+                            Archive& archive, const ScreenWatch& watch) {
   const Stopwatch stopwatch;
-  TriedDesign tried = verification.run(design);
+  TriedDesign tried = verification.run(design, {}, watch);
   const Condition& first = verification.conditions().front();
-  archive.add(
+  if (static_cast<int>(tried.costs.size()) < verification.screen_count()) return tried;
+  archive_and_log(
+      archive,
       {.stage = "verify",
        .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
        .cost = mean_and_standard_error(tried.costs).mean,

@@ -3,6 +3,7 @@
 #include "objectives/design_comparison.hpp"
 #include "objectives/design_trial.hpp"
 #include "results/archive.hpp"
+#include "studies/progress.hpp"
 
 #include <cstddef>
 #include <string>
@@ -13,10 +14,14 @@
 
 namespace nlcwfs {
 
-/// A design on fresh screens, archived.
-/// @param name  for the progress line
-TriedDesign verified_design(const SensorDesign& design, const std::string& name,
-                            const DesignTrial& verification, Archive& archive, bool quiet);
+/// Of a verification of so many designs, in screens under each condition.
+/// @param then, whole  see Progress
+Progress verification_progress(const DesignTrial& verification, std::size_t designs,
+                               std::string then = {}, const Progress* whole = nullptr);
+
+/// A design on fresh screens, archived where the watch did not end it early.
+TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verification,
+                            Archive& archive, const ScreenWatch& watch);
 
 /// One of the best designs of a search or a sweep, held against the best of them on fresh screens.
 struct RankedDesign {

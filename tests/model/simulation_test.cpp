@@ -3,6 +3,7 @@
 #include "model/turbulence_screen.hpp"
 #include "tests/message_of.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -499,6 +500,29 @@ TEST(Simulation, NeedsAScreenAndATelescope) {
               StartsWith("screens.count = 0: at least 1"));
   EXPECT_THAT(message_of([] { Simulation({.diameter = -1.0}, turbulence(1), {}); }),
               StartsWith("telescope.diameter = -1: "));
+}
+
+TEST(Simulation, EndsWithItsFirstScreensWhereTheWatchSaysSo) {
+  const std::vector<PhaseScreen> screens = turbulence(9);
+  const Simulation simulation({}, screens, {});
+  const Performance whole = simulation.evaluate(small_design());
+  for (const int threads : {1, 4}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    for (const int most : {1, 3}) {
+      std::atomic<int> done = 0;
+      const Performance ended = simulation.evaluate(small_design(), [&] { return ++done < most; });
+      EXPECT_EQ(ended.screens.size(), static_cast<std::size_t>(done));
+      EXPECT_GE(done, most);
+      EXPECT_LT(done, most + threads) << "those that are begun are done";
+      for (std::size_t i = 0; i < ended.screens.size(); ++i) {
+        EXPECT_EQ(ended.screens[i].wavefront.residual_wfe, whole.screens[i].wavefront.residual_wfe);
+      }
+    }
+  }
+  std::atomic<int> done = 0;
+  EXPECT_EQ(simulation.follow(small_design(), [&] { return ++done < 9; }).screens.size(), 9u);
+  EXPECT_EQ(done, 9) << "the last screen ends nothing";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "model/screen_statistics.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -167,6 +168,28 @@ TEST(TurbulenceScreen, OnlyTheRatiosOfTheLengthsMatter) {
 TEST(TurbulenceScreen, RefusesSeeingThatIsNotPhysical) {
   EXPECT_THROW(TurbulenceScreenGenerator({0.0}, 16, diameter, 1), InputError);
   EXPECT_THROW(TurbulenceScreenGenerator({0.1, -1.0}, 16, diameter, 1), InputError);
+}
+
+TEST(TurbulenceScreen, EndsWithItsFirstScreensWhereTheWatchSaysSo) {
+  const TurbulenceScreenGenerator generator({.fried_parameter = 0.1}, 8, 0.5, 4);
+  const std::vector<PhaseScreen> whole = generate_screens(generator, 21);
+  std::atomic<int> drawn = 0;
+  const std::vector<PhaseScreen> ended = generate_screens(generator, 21, [&](int more) {
+    drawn += more;
+    return drawn < 5;
+  });
+  EXPECT_EQ(ended.size(), static_cast<std::size_t>(drawn));
+  EXPECT_GE(ended.size(), 5u);
+  for (std::size_t i = 0; i < ended.size(); ++i) EXPECT_TRUE((ended[i] == whole[i]).all());
+  drawn = 0;
+  EXPECT_EQ(generate_screens(generator, 21,
+                             [&](int more) {
+                               drawn += more;
+                               return true;
+                             })
+                .size(),
+            21u);
+  EXPECT_EQ(drawn, 21);
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 #include "optimizer/chained_search.hpp"
 #include "tests/objectives/tiny_simulation.hpp"
 
+#include <atomic>
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace nlcwfs {
 namespace {
@@ -103,6 +105,20 @@ TEST(DesignProblem, ASearchVisitsTheSameFresnelNumbersAtEveryTelescope) {
   for (std::size_t i = 0; i < small.costs.size(); ++i) {
     EXPECT_NEAR(large.costs[i] / small.costs[i], 1.0, 1e-6) << i;
   }
+}
+
+TEST(DesignProblem, EndsTheSearchWhereTheWatchEndsATrial) {
+  const Telescope telescope;
+  const DesignTrial trial({tiny_condition(telescope, 4.0, 9)}, {});
+  const SensorDesign design = tiny_design(telescope);
+  const DesignSpace space(telescope, {.base = design});
+  std::atomic<int> done = 0;
+  DesignProblem problem(space, trial, {}, [&] { return ++done < 9 + 2; });
+  // With nine threads all screens would be begun at once.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
+  const SearchPoint point = space.point_of(design).value();
+  EXPECT_EQ(problem.assess(point, {}).costs.size(), 9u) << "the first is done";
+  EXPECT_THROW((void)problem.assess(point, {}), SearchStopped);
 }
 
 }  // namespace

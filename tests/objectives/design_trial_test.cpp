@@ -4,12 +4,14 @@
 #include "tests/objectives/tiny_simulation.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 namespace nlcwfs {
@@ -194,6 +196,26 @@ TEST_F(DesignTrialTest, AMetricIsOfTheDesignInTheConditionsLight) {
                              }};
   const DesignTrial lit({bright}, {});
   EXPECT_EQ(lit.mean_of(lit.run(design_), photons).mean, 1e6);
+}
+
+TEST_F(DesignTrialTest, EndsWithTheScreensThatAreDoneUnderAllConditions) {
+  const DesignTrial two({tiny_condition(telescope_, 4.0, 9), tiny_condition(telescope_, 8.0, 9)},
+                        {});
+  const TriedDesign whole = two.run(design_);
+  // With nine threads all screens would be begun at once.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
+  std::atomic<int> done = 0;
+  // In the second condition.
+  const TriedDesign ended = two.run(design_, {}, [&] { return ++done < 9 + 3; });
+  ASSERT_GE(ended.costs.size(), 3u);
+  ASSERT_LT(ended.costs.size(), 9u);
+  EXPECT_TRUE(std::ranges::equal(ended.costs, std::span(whole.costs).first(ended.costs.size())));
+  for (const Performance& performance : ended.performances) {
+    EXPECT_EQ(performance.screens.size(), ended.costs.size());
+  }
+  const TriedDesign first = two.on_first_screens(whole, ended.costs.size());
+  EXPECT_EQ(first.costs, ended.costs);
+  EXPECT_EQ(first.performances[1].screens.size(), ended.costs.size());
 }
 
 }  // namespace

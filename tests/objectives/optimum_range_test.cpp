@@ -3,6 +3,8 @@
 #include "objectives/design_comparison.hpp"
 #include "tests/objectives/tiny_simulation.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +23,7 @@ TEST(OptimumRange, HoldsTheBestAndEndsWhereDesignsAreWorse) {
   const DesignTrial trial({tiny_condition(telescope, 4.0, 12)}, {});
   const DesignSpace space = space_of_two_pairs(telescope);
   const SearchPoint best = space.point_of(tiny_design(telescope)).value();
-  const OptimumScan scan = optimum_ranges(space, trial, best, [] { return false; });
+  const OptimumScan scan = optimum_ranges(space, trial, best);
   const std::vector<OptimumRange>& ranges = scan.ranges;
   // The best itself, and on each side of each variable one step at least.
   EXPECT_GE(scan.designs, 7);
@@ -61,16 +63,31 @@ TEST(OptimumRange, HoldsTheBestAndEndsWhereDesignsAreWorse) {
   EXPECT_GE(ends_inside, 3) << "the test shows little";
 }
 
-TEST(OptimumRange, EndsWhereItIsTold) {
+TEST(OptimumRange, ReportsItsShareAndEndsWithTheVariablesThatAreDone) {
   const Telescope telescope;
   const DesignTrial trial({tiny_condition(telescope)}, {});
   const DesignSpace space = space_of_two_pairs(telescope);
   const SearchPoint best = space.point_of(tiny_design(telescope)).value();
-  int asked = 0;
-  EXPECT_EQ(optimum_ranges(space, trial, best, [&] { return ++asked > 2; }).ranges.size(), 1u);
-  const OptimumScan none = optimum_ranges(space, trial, best, [] { return true; });
+  std::vector<double> shares;
+  const OptimumScan whole =
+      optimum_ranges(space, trial, best, [&](double share) { shares.push_back(share); });
+  EXPECT_EQ(static_cast<int>(shares.size()), whole.designs);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_GT(shares.front(), 0.0);
+  EXPECT_LE(shares.back(), 1.0);
+
+  // In the second of three variables.
+  bool goes_on = true;
+  const OptimumScan ended = optimum_ranges(
+      space, trial, best, [&](double share) { goes_on = share < 0.4; }, [&] { return goes_on; });
+  ASSERT_EQ(ended.ranges.size(), 1u);
+  EXPECT_EQ(ended.ranges[0].least, whole.ranges[0].least);
+  EXPECT_EQ(ended.ranges[0].greatest, whole.ranges[0].greatest);
+  EXPECT_LT(ended.designs, whole.designs);
+
+  const OptimumScan none = optimum_ranges(space, trial, best, {}, [] { return false; });
   EXPECT_TRUE(none.ranges.empty());
-  EXPECT_EQ(none.designs, 0);
+  EXPECT_EQ(none.designs, 1);
 }
 
 }  // namespace

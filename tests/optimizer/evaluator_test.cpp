@@ -406,5 +406,26 @@ TEST(Termination, HasNames) {
   EXPECT_EQ(to_string(Termination::stop_requested), "stop_requested");
 }
 
+TEST(Evaluator, KeepsWhatABatchHasBesideADesignThatEndsTheSearch) {
+  TestProblem problem = linear();
+  problem.function = [](int, const Eigen::VectorXd& x) {
+    if (x[0] == 2.0) throw SearchStopped(Termination::stop_requested);
+    return x[0];
+  };
+  std::vector<double> costs;
+  Evaluator evaluator(
+      problem, {.observer = [&](const EvaluationRecord& record) { costs.push_back(record.cost); }});
+  try {
+    evaluator.evaluate({at(3.0, 0.0), at(2.0, 0.0), at(1.0, 0.0)});
+    FAIL() << "the search went on";
+  } catch (const SearchStopped& stopped) {
+    EXPECT_EQ(stopped.termination, Termination::stop_requested);
+  }
+  EXPECT_THAT(costs, testing::ElementsAre(3.0, 1.0));
+  EXPECT_EQ(evaluator.evaluations(), 2);
+  EXPECT_EQ(evaluator.failures(), 0);
+  EXPECT_EQ(evaluator.best()->cost, 1.0);
+}
+
 }  // namespace
 }  // namespace nlcwfs

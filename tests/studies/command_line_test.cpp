@@ -44,7 +44,8 @@ TEST(CommandLine, ReadsTheCommandAndItsOptions) {
   EXPECT_EQ(plain.command, "evaluate");
   EXPECT_EQ(plain.output, std::nullopt);
   EXPECT_EQ(plain.threads, 0);
-  EXPECT_FALSE(plain.quiet || plain.help || plain.version || plain.dump_config);
+  EXPECT_EQ(plain.log_level, LogLevel::info);
+  EXPECT_FALSE(plain.help || plain.version || plain.dump_config);
   EXPECT_EQ(plain.configuration, Configuration());
 
   const CommandLine full = parse({"--quiet", "optimize", "--output", "my results", "--threads=3",
@@ -52,7 +53,8 @@ TEST(CommandLine, ReadsTheCommandAndItsOptions) {
   EXPECT_EQ(full.command, "optimize");
   EXPECT_THAT(full.output, Optional(std::filesystem::path("my results")));
   EXPECT_EQ(full.threads, 3);
-  EXPECT_TRUE(full.quiet && full.dump_config);
+  EXPECT_EQ(full.log_level, LogLevel::warning);
+  EXPECT_TRUE(full.dump_config);
   EXPECT_EQ(full.configuration.integer("screens.count"), 8);
   EXPECT_EQ(full.configuration.source("screens.count"), "on the command line");
 }
@@ -221,7 +223,7 @@ TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
   EXPECT_THAT(resumed.resume, Optional(folder));
   EXPECT_EQ(resumed.configuration, earlier);
   EXPECT_EQ(resumed.threads, 2);
-  EXPECT_TRUE(resumed.quiet);
+  EXPECT_EQ(resumed.log_level, LogLevel::warning);
 
   for (const auto& more : std::vector<std::vector<const char*>>{{"--screens.count", "3"},
                                                                 {"--config", "any.cfg"},
@@ -281,6 +283,19 @@ TEST(CommandLine, EveryMessageIsOneLine) {
                                              {"evaluate", "--quiet=a\nb"}}) {
     EXPECT_THAT(parse_message(arguments), AllOf(Not(""), Not(HasSubstr("\n"))));
   }
+}
+
+TEST(CommandLine, HasFourLogLevels) {
+  EXPECT_EQ(parse({"evaluate", "--log-level", "error"}).log_level, LogLevel::error);
+  EXPECT_EQ(parse({"evaluate", "--log-level", "warning"}).log_level, LogLevel::warning);
+  EXPECT_EQ(parse({"evaluate", "--log-level=info"}).log_level, LogLevel::info);
+  EXPECT_EQ(parse({"evaluate", "--log-level", "debug"}).log_level, LogLevel::debug);
+  EXPECT_EQ(parse_message({"evaluate", "--log-level", "trace"}),
+            "--log-level = trace: one of error, warning, info, debug");
+  EXPECT_EQ(parse_message({"evaluate", "--log-level"}),
+            "--log-level = (nothing): a value must follow");
+  EXPECT_EQ(parse_message({"evaluate", "--log-level", "info", "--quiet"}),
+            "command line = --quiet: is the same as --log-level warning; keep one of them");
 }
 
 }  // namespace

@@ -223,7 +223,7 @@ TEST_F(Studies, AnInterruptInTheCheapSearchLeavesACompleteResult) {
   const ProgramRun finished = run(
       {"optimize", "--config", "tiny.cfg", "--output", "run", "--search.cheap_budget", "1000000"},
       "timeout --foreground --preserve-status --signal INT 2 ");
-  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  EXPECT_EQ(finished.exit_code, 3) << finished.errors;
   EXPECT_THAT(finished.output, HasSubstr("how far each variable may move was not tried"));
   const Json json = summary("run");
   EXPECT_EQ(json["termination"], "stop_requested");
@@ -256,7 +256,7 @@ TEST_F(Studies, AnInterruptedOptimizeVerifiesTheBestSoFar) {
         run({"optimize", "--config", "tiny.cfg", "--output", signal, "--search.budget", "1000000"},
             // In the foreground, or timeout signals the process and its group: twice.
             fmt::format("timeout --foreground --preserve-status --signal {} 2 ", signal));
-    EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+    EXPECT_EQ(finished.exit_code, 3) << finished.errors;
     EXPECT_THAT(finished.output, HasSubstr("until it was interrupted"));
     const Json json = summary(signal);
     EXPECT_EQ(json["termination"], "stop_requested");

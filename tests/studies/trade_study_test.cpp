@@ -277,7 +277,7 @@ TEST_F(TradeStudy, AnInterruptedOneVerifiesTheFrontSoFar) {
       run({"trade", "--config", "tiny.cfg", "--output", "run", "--trade.budget", "1000000"},
           // In the foreground, or timeout signals the process and its group: twice.
           "timeout --foreground --preserve-status --signal INT 2 ");
-  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  EXPECT_EQ(finished.exit_code, 3) << finished.errors;
   EXPECT_THAT(finished.output, HasSubstr("until it was interrupted"));
   const Json json = summary("run");
   EXPECT_EQ(json["termination"], "stop_requested");

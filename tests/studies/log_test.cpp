@@ -1,0 +1,92 @@
+#include "tests/studies/program.hpp"
+
+#include <regex>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+using Log = Program;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(Log, DebugHasEachStageAndDesignWithTimeCostAndDuration) {
+  const ProgramRun finished = run({"optimize", "--config", "tiny.cfg", "--search.cheap_budget", "3",
+                                   "--log-level", "debug", "--output", "run"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.errors;
+  const std::string stamp = R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{3} )";
+  int designs = 0;
+  for (const std::string& line : lines_of(finished.errors)) {
+    EXPECT_TRUE(std::regex_match(line, std::regex(stamp + "[a-z ]+: .+"))) << line;
+    designs += std::regex_match(
+        line, std::regex(stamp + R"(search: a design, cost [0-9.]+, [-0-9.e]+ s)"));
+  }
+  EXPECT_EQ(designs, summary("run")["evaluations"]);
+  for (const char* stage : {"cheap search", "search", "verification", "how far each variable"}) {
+    EXPECT_THAT(finished.errors, HasSubstr(std::string(" ") + stage));
+  }
+  EXPECT_THAT(finished.errors, HasSubstr("search: ended, 6 of 6 designs in "));
+  EXPECT_EQ(run({"optimize", "--config", "tiny.cfg", "--output", "again"}).output.substr(0, 500),
+            finished.output.substr(0, 500))
+      << "what it says of results is the same";
+}
+
+TEST_F(Log, ShortRunsHaveNoProgressWhereThereIsNoTerminal) {
+  for (const Arguments& level :
+       {Arguments{}, Arguments{"--quiet"}, Arguments{"--log-level", "info"},
+        Arguments{"--log-level", "error"}}) {
+    done("evaluate", "run", level);
+    std::filesystem::remove_all("run");
+  }
+}
+
+TEST_F(Log, ProgressIsALineOfTheTerminalThatGoesAgain) {
+  if (std::system("script --version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "there is no script(1) to make a terminal with";
+  }
+  const auto on_terminal = [](const std::string& level) {
+    const std::string command =
+        fmt::format("stty columns 30; {} evaluate --config tiny.cfg --output run{} > output.txt",
+                    program_path(), level);
+    EXPECT_EQ(
+        std::system(
+            fmt::format("script -qec '{}' terminal.txt > /dev/null < /dev/null", command).c_str()),
+        0);
+    std::filesystem::remove_all("run");
+    std::string text = contents("terminal.txt");
+    text = text.substr(text.find('\n') + 1);        // script's own first line
+    return text.substr(0, text.rfind("\nScript"));  // and last
+  };
+  const std::string shown = on_terminal("");
+  const std::string erase = "\r\x1b[K";
+  EXPECT_THAT(shown, HasSubstr(erase + "evaluate: 0 of 2 screens"));
+  std::size_t last = 0;
+  for (auto at = shown.find(erase); at != std::string::npos; at = shown.find(erase, at + 1)) {
+    const std::size_t begin = at + erase.size();
+    const std::size_t end = std::min(shown.find('\r', begin), shown.size());
+    EXPECT_LT(end - begin, 30u) << "it is cut to the terminal's width";
+    last = end - begin;
+  }
+  EXPECT_EQ(last, 0u) << "nothing stays";
+  EXPECT_EQ(on_terminal(" --quiet"), "");
+
+  const std::string logged = on_terminal(" --log-level debug");
+  EXPECT_THAT(logged, HasSubstr("evaluate: a design, cost "));
+  for (const std::string& line : lines_of(logged)) {
+    EXPECT_TRUE(line.starts_with(erase)) << "a line of progress was there before: " << line;
+  }
+}
+
+}  // namespace
+}  // namespace nlcwfs
