@@ -95,8 +95,8 @@ void run_export(const CommandLine& command_line) {
   record.print("{} evaluations of {}{}, {} of them failed\n", list.size(),
                one_line(source.string()),
                counts.empty() ? "" : fmt::format(" ({})", fmt::join(counts, ", ")), failed);
-  record.print("{}: {} columns each\n\n{}\n", fmt::join(files, ", "), table.columns.size(),
-               record.closing_line());
+  record.print("{}: {} columns each\n\n", fmt::join(files, ", "), table.columns.size());
+  record.close();
 }
 
 }  // namespace nlcwfs
