@@ -166,7 +166,7 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
     int status = 0;
     int dimensions = 0;
     int type = 0;
-    std::array<LONGLONG, 4> shape{0, 0, 1, 1};
+    std::vector<LONGLONG> shape{0, 0, 1, 1};
     fits_get_img_paramll(file.get(), 4, &type, &dimensions, shape.data(), &status);
     check_fits(status);
     const int most_dimensions = allowed == FitsShape::square ? 3 : 4;
@@ -186,10 +186,10 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
     cube.sets = static_cast<std::size_t>(shape[3]);
     cube.unit = read_unit(file.get());
 
-    std::array<LONGLONG, 4> first{1, 1, 1, 1};
+    std::vector<LONGLONG> first(shape.size(), 1);
     double undefined = std::numeric_limits<double>::quiet_NaN();  // also what BLANK stands for
     int any_undefined = 0;  // not asked for, but CFITSIO writes to it
-    for (LONGLONG count = 1; count <= slices; ++count, next_slice(first, shape[2])) {
+    for (LONGLONG count = 1; count <= slices; ++count, next_slice(first, shape)) {
       Image<double> slice(shape[1], shape[0]);
       fits_read_pixll(file.get(), TDOUBLE, first.data(), slice.size(), &undefined, slice.data(),
                       &any_undefined, &status);

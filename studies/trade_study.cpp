@@ -377,8 +377,7 @@ void run_trade(const CommandLine& command_line) {
     fmt::print("Front, on the fresh screens:\n{}{}\n", front_text(task, result),
                bests_text(task, result));
   }
-  fmt::print("{}
-{}", knee_text(task, result), hypervolume_text(task, result));
+  fmt::print("{}\n{}", knee_text(task, result), hypervolume_text(task, result));
   record.close();
 }
 
