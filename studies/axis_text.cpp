@@ -1,7 +1,10 @@
 #include "studies/axis_text.hpp"
 
+#include "studies/configuration.hpp"
+
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -25,6 +28,18 @@ std::string label_of(std::string_view name) {
   std::string label(name);
   std::ranges::replace(label, '_', ' ');
   return label;
+}
+
+std::string_view unit_of_variable(std::string_view name) {
+  const auto& keys = configuration_keys();
+  const auto key = std::ranges::find(keys, fmt::format("search.{}", name), &ConfigurationKey::name);
+  assert(key != keys.end());
+  return key->unit_text();
+}
+
+std::string column_of_variable(std::string_view name) {
+  const std::string_view unit = unit_of_variable(name);
+  return unit.empty() ? std::string(name) : fmt::format("{}_{}", name, unit);
 }
 
 AxisUnit axis_unit_of(std::string_view unit, std::span<const double> values) {

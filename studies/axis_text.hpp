@@ -10,6 +10,13 @@ namespace nlcwfs {
 /// "total wfe, nm". Words that mean more than they say are spelt out.
 std::string label_of(std::string_view name);
 
+/// The unit of a variable of the sections search and sweep: "m", "s", or empty for what has none.
+/// @pre there is such a variable
+std::string_view unit_of_variable(std::string_view name);
+
+/// The variable's column in a table, which ends with its unit: "tolerance_m".
+std::string column_of_variable(std::string_view name);
+
 /// The unit that suits an axis.
 struct AxisUnit {
   double size = 1.0;      ///< SI

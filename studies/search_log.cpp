@@ -1,6 +1,7 @@
 #include "studies/search_log.hpp"
 
 #include "results/design_summary.hpp"
+#include "studies/axis_text.hpp"
 #include "studies/evaluation_log.hpp"
 #include "studies/interrupt.hpp"
 
@@ -16,7 +17,9 @@ namespace {
 /// Of every search, whatever it varies: what differs from the configuration is easily seen.
 std::vector<std::string> columns(const std::vector<DesignMetric>& objectives) {
   std::vector<std::string> names{"evaluation", "planes_m"};
-  for (const DesignProperty& property : design_properties()) names.emplace_back(property.name);
+  for (const DesignProperty& property : design_properties()) {
+    names.push_back(column_of_variable(property.name));
+  }
   for (const char* name : {"cost", "violation", "screens", "given_up", "residual_wfe_nm",
                            "total_wfe_nm", "fractional_loops", "failure"}) {
     names.emplace_back(name);

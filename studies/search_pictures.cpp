@@ -3,9 +3,7 @@
 #include "results/csv_table.hpp"
 #include "results/curve_picture.hpp"
 #include "studies/axis_text.hpp"
-#include "studies/configuration.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,15 +12,10 @@
 namespace nlcwfs {
 namespace {
 
-std::string_view unit_of(const std::string& variable) {
-  const auto& keys = configuration_keys();
-  return std::ranges::find(keys, "search." + variable, &ConfigurationKey::name)->unit_text();
-}
-
 CurvePicture picture_of(const OptimumRange& range) {
   std::vector<double> values;
   for (const ScannedValue& scanned : range.values) values.push_back(scanned.value);
-  const AxisUnit unit = axis_unit_of(unit_of(range.name), values);
+  const AxisUnit unit = axis_unit_of(unit_of_variable(range.name), values);
   CurvePicture picture{.title = "",
                        .x_label = label_of(range.name) + unit.suffix(),
                        .y_label = "cost above the best design's",
@@ -78,7 +71,7 @@ std::string sensitivity_table(const std::vector<OptimumRange>& ranges) {
                   "is_worse"});
   for (const OptimumRange& range : ranges) {
     for (const ScannedValue& scanned : range.values) {
-      table.row().add(range.name).add(unit_of(range.name)).add(scanned.value);
+      table.row().add(range.name).add(unit_of_variable(range.name)).add(scanned.value);
       for (const double number :
            {scanned.cost_difference.mean, scanned.cost_difference.standard_error}) {
         if (std::isnan(number)) {

@@ -3,6 +3,7 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/json_numbers.hpp"
+#include "studies/axis_text.hpp"
 #include "studies/closer_look.hpp"
 #include "studies/design_text.hpp"
 #include "studies/evaluation_log.hpp"
@@ -280,12 +281,6 @@ Json axis_value(const DesignGrid& grid, const GridAxis& axis, std::size_t place)
   return value;
 }
 
-std::string axis_unit(const GridAxis& axis) {
-  const auto& keys = configuration_keys();
-  return std::string(
-      std::ranges::find(keys, "sweep." + axis.name, &ConfigurationKey::name)->unit_text());
-}
-
 /// The outcome of each point; null where the grid has no design.
 std::vector<const Outcome*> outcomes_of_points(const Task& task, const Sweep& sweep) {
   std::vector<const Outcome*> points(task.grid.size(), nullptr);
@@ -300,8 +295,7 @@ std::string points_table(const Task& task, const std::vector<const Outcome*>& po
   const DesignGrid& grid = task.grid;
   std::vector<std::string> columns;
   for (const GridAxis& axis : grid.axes()) {
-    const std::string unit = axis_unit(axis);
-    columns.push_back(unit.empty() ? axis.name : fmt::format("{}_{}", axis.name, unit));
+    columns.push_back(column_of_variable(axis.name));
   }
   columns.insert(columns.end(), {"cost", "cost_standard_error", "violation"});
   for (const DesignMetric& metric : task.metrics) {
@@ -366,7 +360,8 @@ Json grid_object(const Task& task, const std::vector<const Outcome*>& points) {
     Json values = Json::array();
     for (std::size_t i = 0; i < axis.values.size(); ++i)
       values.push_back(axis_value(grid, axis, i));
-    object["axes"].push_back({{"name", axis.name}, {"unit", axis_unit(axis)}, {"values", values}});
+    object["axes"].push_back(
+        {{"name", axis.name}, {"unit", unit_of_variable(axis.name)}, {"values", values}});
   }
   // They say which of a design's pairs the axes call near.
   object["orders"] = Json::array();

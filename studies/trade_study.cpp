@@ -1,6 +1,7 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/scatter_picture.hpp"
+#include "studies/axis_text.hpp"
 #include "studies/closer_look.hpp"
 #include "studies/design_text.hpp"
 #include "studies/run_record.hpp"
@@ -94,7 +95,9 @@ std::string front_table(const TradeSearch& task, const TradeResult& result) {
     const bool is_there = std::ranges::count(metrics, known.name, &DesignMetric::name) > 0;
     if (!is_there && known.name != "seconds") metrics.push_back(known);
   }
-  for (const DesignProperty& property : design_properties()) columns.emplace_back(property.name);
+  for (const DesignProperty& property : design_properties()) {
+    columns.push_back(column_of_variable(property.name));
+  }
   for (const DesignMetric& metric : metrics) {
     columns.emplace_back(metric.name);
     columns.push_back(fmt::format("{}_standard_error", metric.name));

@@ -140,7 +140,7 @@ TEST_F(Studies, OptimizeVariesWhatItIsTold) {
   EXPECT_THAT(column("pupil_pixels"), ElementsAre("16", "8"));
   EXPECT_THAT(column("initial_guess"), ElementsAre("0", "1"));
   EXPECT_GT(column("relaxation").size(), 10u);
-  EXPECT_EQ(column("tolerance").size(), 1u);
+  EXPECT_EQ(column("tolerance_m").size(), 1u);
 
   // The best design's configuration is the best design.
   const Json best = summary("run")["best"];
