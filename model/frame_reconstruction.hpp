@@ -37,10 +37,10 @@ struct FrameReconstruction {
 ///
 /// The loop needs the planes' intensities relative to each other (a factor common to all only
 /// scales the field). A frame's own sum does not give it: some of the light misses the detector,
-/// more of it in the farther planes (1.5 % at 47 km and 11.5 % at 180 km on four diameters, D/r0 =
-/// 4). So the share that falls on the measured pixels is taken from the reconstruction itself: all
-/// of it at first, then what the reconstructed pupil sends there, until no plane's light changes by
-/// more than 0.1 %.
+/// more of it in the farther planes (1.5 % at 47 km and about 10 % at 180 km on four diameters,
+/// D/r0 = 4). So the share that falls on the measured pixels is taken from the reconstruction
+/// itself: all of it at first, then what the reconstructed pupil sends there, until no plane's
+/// light changes by more than 0.1 %.
 ///
 /// @param frames       one per plane in visiting order, detector width x width; NaN = not measured
 /// @param throughputs  the planes' light relative to each other; empty = not known, then each

@@ -358,7 +358,8 @@ std::string hints(const FrameRun& run, const std::vector<PlaneMeans>& planes) {
   if (misfit > poor_misfit) {
     text +=
         "  Check the signs and the order of sensor.planes against the frames, "
-        "detector.pupil_pixels,\n  telescope.diameter and telescope.wavelength.\n";
+        "frames.background,\n  detector.pupil_pixels, telescope.diameter and "
+        "telescope.wavelength.\n";
   } else {
     text +=
         "  Check the distances in sensor.planes, frames.centre, frames.background and "
