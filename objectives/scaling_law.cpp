@@ -192,9 +192,10 @@ std::vector<double> ScalingLaw::planes(const Telescope& telescope, double fried_
   if (!(near > 0.0 && near < far && far <= farthest_distance(telescope))) {
     throw InputError(
         "seeing.d_over_r0", fmt::format("{:g}", d_over_r0),
-        fmt::format("too far from the law's designs, D/r0 = {:g} to {:g}: there its near pair "
-                    "would be at {:.3g} m, its far pair at {:.3g} m",
-                    least_d_over_r0, greatest_d_over_r0, near, far));
+        fmt::format(
+            "too far from the law's designs, D/r0 = {:g} to {:g}: there its near pair "
+            "would be at {:.3g} km, its far pair at {:.3g} km; search the planes with optimize",
+            least_d_over_r0, greatest_d_over_r0, near / 1e3, far / 1e3));
   }
   const std::array<double, 4> numbered{-near, near, -far, far};
   std::vector<double> planes;

@@ -98,8 +98,8 @@ void parse_positional(const std::string& value, CommandLine& result,
     const Command& command = command_of(result.command);
     if (result.arguments.size() == command.arguments.size()) {
       throw InputError("command line", one_line(value),
-                       fmt::format("nothing may follow the command {} but options, such as "
-                                   "--telescope.diameter 0.5m",
+                       fmt::format("nothing may follow the command {} but options; a value is one "
+                                   "word, such as 0.5m or -47km,47km",
                                    fmt::join(usage_words(command), " ")));
     }
     if (value.empty()) throw InputError("command line", one_line(""), "a folder must have a name");
@@ -130,12 +130,10 @@ void require_whole_command(const CommandLine& command_line) {
   }
   const std::size_t given = command_line.arguments.size();
   if (given == command.arguments.size() || command_line.dump_config) return;
-  throw InputError("command line", given == 0 ? one_line("") : one_line(command_line.arguments[0]),
-                   fmt::format("{} must follow {}: nlcwfs {}",
-                               command.arguments.size() == 1
-                                   ? "one folder"
-                                   : fmt::format("{} folders", command.arguments.size()),
-                               command.name, fmt::join(usage_words(command), " ")));
+  throw InputError(
+      "command line", given == 0 ? one_line("") : one_line(command_line.arguments[0]),
+      fmt::format("{} must follow {}: nlcwfs {}", fmt::join(command.arguments, " and "),
+                  command.name, fmt::join(usage_words(command), " ")));
 }
 
 /// The configuration of the run to go on with.

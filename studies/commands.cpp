@@ -1,5 +1,9 @@
 #include "studies/commands.hpp"
 
+#include "studies/manual_page.hpp"
+#include "studies/shell_completion.hpp"
+#include "studies/studies.hpp"
+
 #include <algorithm>
 #include <initializer_list>
 
@@ -28,7 +32,6 @@ constexpr const char* best_designs = "The best design";
 constexpr const char* laws = "Laws and scaling";
 constexpr const char* results = "Results of a run";
 constexpr const char* others = "The paper and this machine";
-constexpr const char* files = "Files of a run";
 
 }  // namespace
 
@@ -48,14 +51,16 @@ const std::vector<Command>& commands() {
                 "them. Every metric of every wavefront is in screens.csv.",
        .keys = joined({site, simulation, judgement}),
        .examples = {"nlcwfs evaluate --telescope.diameter 1.8 --seeing.fried_parameter 24cm",
-                    "nlcwfs evaluate --config results/optimize-1/best.cfg --screens.count 256"}},
+                    "nlcwfs evaluate --config results/optimize-1/best.cfg --screens.count 256"},
+       .run = run_evaluate},
       {.name = "convergence",
        .group = one_design,
        .description = "follow one design's residual wavefront error from loop to loop",
        .about = "Runs all of reconstruction.max_loops on each wavefront, whatever the tolerance, "
                 "and gives the residual wavefront error after each loop as a table and a picture.",
        .keys = joined({site, simulation, judgement}),
-       .examples = {"nlcwfs convergence --source.bands 400nm:800nm --source.division split"}},
+       .examples = {"nlcwfs convergence --source.bands 400nm:800nm --source.division split"},
+       .run = run_convergence},
       {.name = "response",
        .group = one_design,
        .description =
@@ -65,8 +70,8 @@ const std::vector<Command>& commands() {
                 "planes at these distances, as maps. Beside it stand the contrast and the photon "
                 "noise that theory lets expect.",
        .keys = joined({site, simulation, judgement, {"response"}}),
-       .examples =
-           {"nlcwfs response --response.distances 1km:200km:20:log --detector.photons 1e7"}},
+       .examples = {"nlcwfs response --response.distances 1km:200km:20:log --detector.photons 1e7"},
+       .run = run_response},
       {.name = "reconstruct",
        .group = one_design,
        .description =
@@ -77,7 +82,8 @@ const std::vector<Command>& commands() {
                 "held against what was measured there.",
        .keys = joined({site, {"frames", "sensor", "detector", "reconstruction"}}),
        .examples = {"nlcwfs reconstruct --frames frames.fits "
-                    "--sensor.planes=-180km,180km,-47km,47km --frames.background dark.fits"}},
+                    "--sensor.planes=-180km,180km,-47km,47km --frames.background dark.fits"},
+       .run = run_reconstruct},
       {.name = "screens",
        .group = one_design,
        .description = "make phase screens: a FITS cube and its statistics",
@@ -85,7 +91,8 @@ const std::vector<Command>& commands() {
            "Writes the wavefronts that the other commands use as screens.fits, and holds their "
            "variances and structure function against theory.",
        .keys = joined({site, {"source", "screens", "detector", "simulation"}}),
-       .examples = {"nlcwfs screens --screens.count 100 --seeing.outer_scale 25"}},
+       .examples = {"nlcwfs screens --screens.count 100 --seeing.outer_scale 25"},
+       .run = run_screens},
       {.name = "sweep",
        .group = best_designs,
        .description = "try every design of a grid: maps of all figures, and the best, verified",
@@ -95,6 +102,7 @@ const std::vector<Command>& commands() {
        .keys = joined({site, simulation, judgement, {"sweep", "verify", "search.precision"}}),
        .examples = {"nlcwfs sweep --sweep.z_near 5km:100km:24:log --sweep.z_far 50km:235km:24:log",
                     "nlcwfs sweep --resume results/sweep-1"},
+       .run = run_sweep,
        .resumable = true},
       {.name = "optimize",
        .group = best_designs,
@@ -108,7 +116,8 @@ const std::vector<Command>& commands() {
            {"nlcwfs optimize --telescope.diameter 1.8 --telescope.wavelength 850nm "
             "--seeing.fried_parameter 24cm",
             "nlcwfs optimize --search.layout free --search.plane_count 3,4 --detector.photons "
-            "1e5"}},
+            "1e5"},
+       .run = run_optimize},
       {.name = "compare",
        .group = best_designs,
        .description =
@@ -117,8 +126,9 @@ const std::vector<Command>& commands() {
            "Takes the folders of a sweep and of a search for the same telescope, simulates the "
            "best design of each on screens that neither has seen, and gives the paired "
            "difference of their costs.",
-       .keys = {},
+       .keys = {"verify.screens", "verify.seed", "verify.truth_factor"},
        .examples = {"nlcwfs compare results/sweep-1 results/optimize-1"},
+       .run = run_compare,
        .arguments = {"SWEEP", "OPTIMIZE"}},
       {.name = "trade",
        .group = best_designs,
@@ -128,14 +138,16 @@ const std::vector<Command>& commands() {
            "planes and pixels, and verifies the front on fresh screens. front.csv has the "
            "front, knee.cfg its knee.",
        .keys = joined({site, simulation, judgement, search, {"trade"}}),
-       .examples = {"nlcwfs trade --trade.objectives total_wfe_nm,model_seconds,plane_count"}},
+       .examples = {"nlcwfs trade --trade.objectives total_wfe_nm,model_seconds,plane_count"},
+       .run = run_trade},
       {.name = "law",
        .group = laws,
        .description = "fit the scaling law that advise follows to the best designs at several D/r0",
        .about = "Searches the best symmetric design at each of law.d_over_r0 and fits lines to the "
                 "planes and what they reach. Its law.json can be the advise.law of another day.",
        .keys = joined({{"telescope"}, simulation, judgement, search, {"law"}}),
-       .examples = {"nlcwfs law --law.d_over_r0 3,4,6,8"}},
+       .examples = {"nlcwfs law --law.d_over_r0 3,4,6,8"},
+       .run = run_law},
       {.name = "advise",
        .group = laws,
        .description = "tell a telescope's planes from the scaling law; --verify simulates them",
@@ -143,7 +155,8 @@ const std::vector<Command>& commands() {
            "Gives the planes of a telescope at once, with the error and the loops that the law "
            "predicts; with --verify they are simulated on fresh screens too.",
        .keys = joined({site, simulation, judgement, {"advise", "verify"}}),
-       .examples = {"nlcwfs advise --telescope.diameter 8.2 --seeing.fried_parameter 1m --verify"}},
+       .examples = {"nlcwfs advise --telescope.diameter 8.2 --seeing.fried_parameter 1m --verify"},
+       .run = run_advise},
       {.name = "scale",
        .group = laws,
        .description = "move a design to another telescope or bench at equal Fresnel numbers",
@@ -151,7 +164,8 @@ const std::vector<Command>& commands() {
                 "the same diffraction, and writes the moved design as scaled.cfg.",
        .keys = joined({site, {"sensor", "source", "detector", "reconstruction", "scale"}}),
        .examples = {"nlcwfs scale --config results/optimize-1/best.cfg --scale.diameter 8.2 "
-                    "--scale.relay_beam_diameter 10mm"}},
+                    "--scale.relay_beam_diameter 10mm"},
+       .run = run_scale},
       {.name = "report",
        .group = results,
        .description = "make the page report.html of a run's folder again",
@@ -160,26 +174,10 @@ const std::vector<Command>& commands() {
                 "or another version has written them, and says so. It writes nothing else.",
        .keys = {},
        .examples = {"nlcwfs report results/optimize-1"},
+       .run = run_report,
        .arguments = {"DIR"}},
-      {.name = "reproduce",
-       .group = others,
-       .description =
-           "run every study of Letchev et al. 2022 and hold its claims against the results",
-       .about = "Runs the paper's figures in its own set-up and with an extended truth, and judges "
-                "its claims one by one. It takes about an hour; --figure N runs a part, and an "
-                "interrupted run goes on with --resume.",
-       .keys = {"screens.count", "screens.seed", "reproduce"},
-       .examples = {"nlcwfs reproduce --figure 8 --screens.count 4"},
-       .resumable = true},
-      {.name = "benchmark",
-       .group = others,
-       .description = "time a configuration on this machine; writes files only with --output",
-       .about = "Takes about five seconds and says what loops, designs and a whole search of the "
-                "configuration cost on this machine.",
-       .keys = joined({site, simulation, judgement, search}),
-       .examples = {"nlcwfs benchmark --detector.pupil_pixels 128 --threads 8"}},
       {.name = "export",
-       .group = files,
+       .group = results,
        .description = "write a run's archive as flat tables: CSV, JSON, FITS",
        .about =
            "Takes the folder of a run, or its archive.sqlite, and writes a row for every design "
@@ -187,7 +185,47 @@ const std::vector<Command>& commands() {
            "standard error.",
        .keys = {"export"},
        .examples = {"nlcwfs export results/optimize-1 --export.formats csv,fits"},
-       .arguments = {"RUN"}}};
+       .run = run_export,
+       .arguments = {"RUN"}},
+      {.name = "reproduce",
+       .group = others,
+       .description =
+           "run every study of Letchev et al. 2022 and hold its claims against the results",
+       .about = "Runs the paper's figures in its own set-up and with an extended truth, and judges "
+                "its claims one by one. It takes about an hour; --figure N runs a part, and an "
+                "interrupted run goes on with --resume.",
+       .keys = {"screens.count", "screens.seed", "detector", "reconstruction",
+                "simulation.pupil_samples", "simulation.precision", "objective", "search.precision",
+                "verify", "response.frequencies", "response.amplitude", "reproduce"},
+       .examples = {"nlcwfs reproduce --figure 8 --screens.count 4"},
+       .run = run_reproduce,
+       .resumable = true},
+      {.name = "benchmark",
+       .group = others,
+       .description = "time a configuration on this machine; writes files only with --output",
+       .about = "Takes about five seconds and says what loops, designs and a whole search of the "
+                "configuration cost on this machine.",
+       .keys = joined({site, simulation, judgement, search}),
+       .examples = {"nlcwfs benchmark --detector.pupil_pixels 128 --threads 8"},
+       .run = run_benchmark},
+      {.name = "manual",
+       .group = others,
+       .description = "print the manual page, nlcwfs(1)",
+       .about = "It has every command, option and key on one page. An installed nlcwfs has it as "
+                "man nlcwfs.",
+       .keys = {},
+       .examples = {"nlcwfs manual | man -l -"},
+       .run = run_manual},
+      {.name = "completion",
+       .group = others,
+       .description = "print what lets a shell complete commands, keys and their words",
+       .about =
+           "Knows bash, zsh and fish; source <(nlcwfs completion bash) turns it on in this bash. "
+           "An installed nlcwfs has them in their usual places.",
+       .keys = {},
+       .examples = {"nlcwfs completion fish > ~/.config/fish/completions/nlcwfs.fish"},
+       .run = run_completion,
+       .arguments = {"SHELL"}}};
   return known;
 }
 

@@ -6,6 +6,8 @@
 
 namespace nlcwfs {
 
+struct CommandLine;
+
 /// One of the program's commands: a row of the table that the command line, the help, the manual
 /// page and the shells' completion are made from.
 struct Command {
@@ -16,8 +18,9 @@ struct Command {
   /// What it reads of the configuration: sections, such as "telescope", or single keys, such as
   /// "screens.seed".
   std::vector<std::string> keys;
-  std::vector<std::string> examples;  ///< whole command lines
-  bool resumable = false;             ///< takes --resume
+  std::vector<std::string> examples;                       ///< whole command lines
+  void (*run)(const CommandLine& command_line) = nullptr;  ///< does it; in studies/studies.hpp
+  bool resumable = false;                                  ///< takes --resume
   /// Names of what must follow the command, such as folders; mostly none.
   std::vector<std::string> arguments = {};
 

@@ -53,6 +53,9 @@ void run_evaluate(const CommandLine& command_line) {
   record.print("On {} screens, {} truth:\n{}", performance.screens.size(),
                configuration.choice("simulation.truth"),
                performance_table({{"mean +- standard error", &performance, tried.costs}}));
+  if (performance.screens.size() == 1) {
+    record.print("note: one screen has no standard error; screens.count = 16 or more has\n");
+  }
   record.print("{}", captured_energy_warnings(design, performance));
   record.print("\n");
   record.close();

@@ -39,18 +39,10 @@ std::string option_entry(const ProgramOption& option, const std::string& text) {
   return entry(option_words(option), text, option_column);
 }
 
-/// Of all commands; of an option that only some take, with their names.
 std::string all_options_text() {
   std::string text = "Options:\n";
   for (const ProgramOption& option : program_options()) {
-    std::vector<std::string> takers;
-    for (const Command& command : commands()) {
-      if (option.is_of(command)) takers.push_back(command.name);
-    }
-    text += option_entry(option,
-                         takers.size() == commands().size()
-                             ? option.description
-                             : fmt::format("{}: {}", fmt::join(takers, ", "), option.description));
+    text += option_entry(option, with_takers(option));
   }
   return text;
 }
@@ -127,8 +119,8 @@ std::string program_help() {
 }
 
 std::string command_help(const Command& command) {
-  std::string text = fmt::format("Usage: {} [OPTION]...\n\nnlcwfs {}: {}\n\n", usage_words(command),
-                                 command.name, command.description);
+  std::string text = fmt::format("Usage: {} [OPTION]...\n\n{}.\n\n", usage_words(command),
+                                 with_capital(command.description));
   text += paragraph(command.about) + "\nExamples:\n";
   for (const std::string& example : command.examples) {
     text += fmt::format("  {}\n", fmt::join(wrapped(example, columns - 6), " \\\n      "));
@@ -142,6 +134,20 @@ std::string command_help(const Command& command) {
                  "override the preset. Lengths may be written in nm, um, mm, cm, m or km, times "
                  "in us, ms, s, min or h; without a unit they are in m and s.");
   return text + keys_text(command);
+}
+
+std::string with_takers(const ProgramOption& option) {
+  std::vector<std::string> takers;
+  for (const Command& command : commands()) {
+    if (option.is_of(command)) takers.push_back(command.name);
+  }
+  if (takers.size() > commands().size() / 2) return option.description;
+  return fmt::format("{}: {}", fmt::join(takers, ", "), option.description);
+}
+
+std::string with_capital(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() += 'A' - 'a';
+  return text;
 }
 
 }  // namespace nlcwfs

@@ -5,6 +5,7 @@
 namespace nlcwfs {
 
 struct Command;
+struct ProgramOption;
 
 /// What the program is, its commands and options, for a terminal of 100 columns.
 std::string program_help();
@@ -12,5 +13,11 @@ std::string program_help();
 /// What a command does, with examples, the options that it takes and the keys that it reads, for a
 /// terminal of 100 columns.
 std::string command_help(const Command& command);
+
+/// What an option does, after the names of the commands that take it where most do not.
+std::string with_takers(const ProgramOption& option);
+
+/// A sentence, with a capital letter.
+std::string with_capital(std::string text);
 
 }  // namespace nlcwfs

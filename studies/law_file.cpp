@@ -227,9 +227,9 @@ Json to_json(const LawFile& file) {
 LawFile parse_law_file(std::string_view text, const std::string& name) {
   try {
     return law_file_of(Json::parse(text));
-  } catch (const Json::exception& error) {
+  } catch (const Json::exception&) {
     throw InputError("advise.law", one_line(name),
-                     fmt::format("not JSON: {}", without_controls(error.what())));
+                     "is no JSON; give the law.json that a run of law or advise left");
   } catch (const InputError& error) {
     throw InputError("advise.law", one_line(name), error.what());
   }

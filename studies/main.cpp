@@ -6,25 +6,39 @@
 #include "studies/interrupt.hpp"
 #include "studies/log.hpp"
 #include "studies/settings.hpp"
-#include "studies/studies.hpp"
 #include "studies/text.hpp"
 #include "studies/version.hpp"
 
 #include <cerrno>
 #include <cstdio>
 #include <exception>
-#include <functional>
-#include <map>
 #include <new>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 namespace {
 
 enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 3 };
+
+/// A note of keys on the command line that mean nothing to the command, where a user surely meant
+/// something. Files are silent: they serve several commands.
+void print_ignored_keys(const nlcwfs::CommandLine& command_line) {
+  const nlcwfs::Command& command = nlcwfs::command_of(command_line.command);
+  std::vector<std::string> ignored;
+  for (const nlcwfs::ConfigurationKey& key : nlcwfs::configuration_keys()) {
+    if (command_line.configuration.source(key.name) == "on the command line" &&
+        !command.reads(key.name)) {
+      ignored.push_back(key.name);
+    }
+  }
+  if (ignored.empty() || command_line.log_level == nlcwfs::LogLevel::error) return;
+  fmt::print(stderr, "nlcwfs: note: {0} does not use {1}; nlcwfs {0} --help lists what it uses\n",
+             command.name, fmt::join(ignored, ", "));
+}
 
 void run(int argc, const char* const* argv) {
   using namespace nlcwfs;
@@ -45,29 +59,13 @@ void run(int argc, const char* const* argv) {
     return;
   }
   start_log(command_line.log_level);
+  print_ignored_keys(command_line);
   if (command_line.output) OutputFolder::require_free(*command_line.output);
   const int threads =
       command_line.threads > 0 ? command_line.threads : tbb::this_task_arena::max_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
-  static const std::map<std::string, std::function<void(const CommandLine&)>> studies{
-      {"advise", run_advise},
-      {"benchmark", run_benchmark},
-      {"compare", run_compare},
-      {"convergence", run_convergence},
-      {"evaluate", run_evaluate},
-      {"export", run_export},
-      {"law", run_law},
-      {"optimize", run_optimize},
-      {"reconstruct", run_reconstruct},
-      {"report", run_report},
-      {"reproduce", run_reproduce},
-      {"response", run_response},
-      {"scale", run_scale},
-      {"screens", run_screens},
-      {"sweep", run_sweep},
-      {"trade", run_trade}};
-  studies.at(command_line.command)(command_line);
+  command_of(command_line.command).run(command_line);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include "studies/configuration.hpp"
 
+#include <filesystem>
+#include <sstream>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,36 +19,60 @@ std::string preset_names() {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+std::vector<std::string> preset_choices() {
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  return names;
+}
+
+/// What reproduce runs by default: all that it knows.
+std::vector<std::string> figures() {
+  std::vector<std::string> names;
+  std::istringstream list(Configuration().text("reproduce.figures"));
+  for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+  return names;
+}
+
+/// Of what is configured and leaves results.
+bool is_of_runs(const Command& command) { return !command.keys.empty(); }
 bool is_of_all(const Command& /*command*/) { return true; }
 
 }  // namespace
 
 const std::vector<ProgramOption>& program_options() {
   static const std::vector<ProgramOption> options{
-      {"config", "FILE", "read a configuration file; of several, the later wins", is_of_all},
-      {"preset", "NAME", "start from a named set of values: " + preset_names(), is_of_all},
-      {"output", "DIR", "write the results there [results/<command>-<n>]", is_of_all},
+      {"config", "FILE", "read a configuration file; of several, the later wins", is_of_runs},
+      {"preset", "NAME", "start from a named set of values: " + preset_names(), is_of_runs,
+       preset_choices()},
+      {"output", "DIR", "write the results there [results/<command>-<n>]", is_of_runs},
       {"resume", "DIR", "go on with the interrupted run in this folder, as it is configured",
        [](const Command& command) { return command.resumable; }},
       {"figure", "N",
        "run only this figure of the paper, or another part that reproduce.figures knows; may be "
        "given several times",
-       [](const Command& command) { return command.name == "reproduce"; }},
+       [](const Command& command) { return command.name == "reproduce"; }, figures()},
       {"frames", "FILE", "read the measured frames of this FITS file, as frames.file",
        [](const Command& command) { return command.name == "reconstruct"; }},
       {"verify", "", "simulate the design on fresh screens, as the section verify says",
        [](const Command& command) { return command.name == "advise"; }},
-      {"threads", "N", "use this many cores, 0 = all [0]", is_of_all},
-      {"log-level", "LEVEL",
+      {"threads", "N", "use this many cores, 0 = all [0]", is_of_runs},
+      {"log-level",
+       "LEVEL",
        "what goes to standard error while the command runs: error, warning, info (progress) or "
        "debug (each stage and design too) [info]",
-       is_of_all},
-      {"quiet", "", "no progress: the same as --log-level warning", is_of_all},
+       is_of_runs,
+       {"error", "warning", "info", "debug"}},
+      {"quiet", "", "no progress: the same as --log-level warning", is_of_runs},
       {"dump-config", "", "print every key with its value as a configuration file, and stop",
-       is_of_all},
+       is_of_runs},
       {"help", "", "print this text, and stop", is_of_all},
       {"version", "", "print the version, and stop", is_of_all}};
   return options;
+}
+
+bool names_file(const ConfigurationKey& key) {
+  const std::string extension = std::filesystem::path(key.example).extension().string();
+  return key.kind == Kind::text && (extension == ".fits" || extension == ".json");
 }
 
 std::string value_name(const ConfigurationKey& key) {
@@ -76,7 +103,7 @@ std::string value_name(const ConfigurationKey& key) {
     case Kind::choice:
       return "WORD";
     case Kind::text:
-      return "TEXT";
+      return names_file(key) ? "FILE" : "TEXT";
   }
   return "TEXT";
 }

@@ -15,10 +15,14 @@ struct ProgramOption {
   std::string value_name;                 ///< empty for a flag
   std::string description;                ///< what it does
   bool (*is_of)(const Command& command);  ///< whether a command takes it
+  std::vector<std::string> choices = {};  ///< the words that it may have; empty where others may
 };
 
 /// Every such option, in the order of the help.
 const std::vector<ProgramOption>& program_options();
+
+/// Whether a key's text is the name of a file, as its example shows.
+bool names_file(const ConfigurationKey& key);
 
 /// What stands for a key's value in the help: "LENGTH", "NUMBERS", ...
 std::string value_name(const ConfigurationKey& key);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -106,25 +107,22 @@ TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
 }
 
 TEST(CommandLine, AsksForACommand) {
+  const std::string names = fmt::format("{}", fmt::join(command_names(), ", "));
   const std::string message =
-      "command = (nothing): one of evaluate, convergence, response, reconstruct, screens, "
-      "scale, sweep, optimize, compare, trade, law, advise, reproduce, benchmark; "
-      "nlcwfs --help explains them";
+      "command = (nothing): one of " + names + "; nlcwfs --help explains them";
   EXPECT_EQ(parse_message({}), message);
   EXPECT_EQ(parse_message({"--quiet"}), message);
   EXPECT_EQ(message_of([] { parse_command_line(0, std::vector<const char*>{nullptr}.data()); }),
             message);
   EXPECT_EQ(parse_message({"optimise"}),
-            "command = optimise: one of evaluate, convergence, response, reconstruct, screens, "
-            "scale, sweep, optimize, compare, trade, law, advise, reproduce, benchmark; did you "
-            "mean optimize?");
+            "command = optimise: one of " + names + "; did you mean optimize?");
   EXPECT_THAT(parse_message({""}), StartsWith("command = (nothing): one of "));
 }
 
 TEST(CommandLine, NamesAStrayArgument) {
   EXPECT_EQ(parse_message({"evaluate", "--telescope.diameter", "5", "m"}),
-            "command line = m: nothing may follow the command evaluate but options, such as "
-            "--telescope.diameter 0.5m");
+            "command line = m: nothing may follow the command evaluate but options; a value is one "
+            "word, such as 0.5m or -47km,47km");
   EXPECT_THAT(parse_message({"evaluate", "optimize"}), StartsWith("command line = optimize: "));
 }
 
@@ -133,7 +131,7 @@ TEST(CommandLine, TakesTheArgumentsOfACommand) {
   for (const auto& arguments :
        std::vector<std::vector<const char*>>{{"compare"}, {"compare", "a"}}) {
     EXPECT_THAT(parse_message(arguments),
-                EndsWith("2 folders must follow compare: nlcwfs compare SWEEP OPTIMIZE"));
+                EndsWith("SWEEP and OPTIMIZE must follow compare: nlcwfs compare SWEEP OPTIMIZE"));
   }
   EXPECT_THAT(
       parse_message({"compare", "a", "b", "c"}),

@@ -141,7 +141,7 @@ TEST(LawFile, IsRefusedWithTheNameOfTheField) {
 TEST(LawFile, IsRefusedWhereItIsNoJson) {
   for (const std::string text : {"", "{", "nan", "{\"data\": 1e999}", "\x01\n\xFF"}) {
     EXPECT_THAT(message_of([&] { parse_law_file(text, "my\nlaw"); }),
-                AllOf(StartsWith("advise.law = my?law: not JSON: "), Not(HasSubstr("\n"))))
+                AllOf(StartsWith("advise.law = my?law: is no JSON; give "), Not(HasSubstr("\n"))))
         << text;
   }
   EXPECT_EQ(message_of([] { parse_law_file("[]", "law"); }),
