@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace nlcwfs {
