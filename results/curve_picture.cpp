@@ -113,7 +113,7 @@ std::optional<std::string> write_picture(const std::string& title,
   return draw(
       {.title = title,
        .columns = columns,
-       .room = {.width = 300, .height = 230, .left = 82, .right = 22, .below = 62, .above = 24},
+       .room = {.width = 300, .height = 230, .left = 82, .right = 22, .below = 70, .above = 24},
        .panels = std::move(panels)},
       stem);
 }

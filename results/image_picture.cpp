@@ -65,7 +65,7 @@ std::optional<std::string> write_picture(const ImagePicture& picture,
   GnuplotPanels figure{
       .title = picture.title,
       .columns = count == 4 ? 2 : std::min<std::size_t>(count, 3),
-      .room = {.width = 250, .height = 250, .left = 68, .right = 92, .below = 56, .above = 30},
+      .room = {.width = 250, .height = 250, .left = 68, .right = 92, .below = 70, .above = 30},
       .panels = {}};
   std::ofstream file(data, std::ios::binary);
   std::size_t written = 0;

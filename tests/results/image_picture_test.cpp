@@ -63,6 +63,7 @@ TEST_F(ImagePictureTest, AnImageDecidesWhatIsDrawn) {
 TEST_F(ImagePictureTest, ColoursOfSignedImagesReachAsFarToBothSides) {
   ImagePicture picture = two_images();
   picture.panels.erase(picture.panels.begin());  // leaves -2 to 3
+  picture.panels[0].pitch = 0.1;                 // so that the axes have other numbers
   ASSERT_EQ(write_picture(picture, "signed"), std::nullopt);
   EXPECT_THAT(contents("signed.svg"), AllOf(HasSubstr(">-3<"), HasSubstr(">3<")));
   picture.panels[0].is_signed = false;
