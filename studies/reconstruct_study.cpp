@@ -5,9 +5,11 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/fits_cube.hpp"
+#include "results/image_picture.hpp"
 #include "studies/design_text.hpp"
 #include "studies/interrupt.hpp"
 #include "studies/measured_frames.hpp"
+#include "studies/picture_set.hpp"
 #include "studies/progress.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
@@ -201,6 +203,70 @@ std::string consistency_table(const FrameRun& run) {
     }
   }
   return table.text();
+}
+
+// Pictures ----------------------------------------------------------------------------------------
+
+/// "Set 1 of 3: 0.5 m telescope at 532 nm"; the first set stands for all.
+std::string title_of(const FrameRun& run) {
+  const std::string telescope =
+      fmt::format("{} telescope at {}", format_length(run.telescope.diameter),
+                  format_length(run.telescope.wavelength));
+  return run.sets.size() == 1 ? telescope
+                              : fmt::format("Set 1 of {}: {}", run.sets.size(), telescope);
+}
+
+ImagePicture phase_picture(const FrameRun& run) {
+  const SetResult& set = run.sets.front();
+  return {.title = title_of(run),
+          .axis_unit = "m",
+          .panels = {
+              {.title = fmt::format("reconstructed phase, RMS {:.4g} nm", set.wavefront_rms / nm),
+               .value_label = "phase, rad",
+               .values = set.phase,
+               .pitch = run.telescope.diameter / double(set.phase.rows()),
+               .is_signed = true}}};
+}
+
+/// Measured, predicted and their difference, a row for each plane.
+ImagePicture images_picture(const FrameRun& run) {
+  const FrameReconstruction& frames = run.sets.front().frames;
+  ImagePicture picture{.title = title_of(run), .axis_unit = "m", .panels = {}};
+  const double pitch = run.telescope.diameter / run.design.detector.pupil_pixels;
+  for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
+    const std::string name =
+        fmt::format("plane {}, {}", plane + 1, format_length(run.design.planes[plane]));
+    const Image<double>& measured = frames.measured[plane];
+    const Image<double>& predicted = frames.predicted[plane];
+    const double brightest =
+        std::max(measured.maxCoeff<Eigen::PropagateNumbers>(), predicted.maxCoeff());
+    const std::string unit = "over the pupil's";
+    picture.panels.push_back({.title = name + ": measured",
+                              .value_label = unit,
+                              .values = measured,
+                              .pitch = pitch,
+                              .range = std::pair{0.0, brightest}});
+    picture.panels.push_back({.title = "predicted",
+                              .value_label = unit,
+                              .values = predicted,
+                              .pitch = pitch,
+                              .range = std::pair{0.0, brightest}});
+    picture.panels.push_back({.title = fmt::format("difference, {:.1f} % RMS",
+                                                   100.0 * frames.planes[plane].relative_rms),
+                              .value_label = unit,
+                              .values = measured - predicted,
+                              .pitch = pitch,
+                              .is_signed = true});
+  }
+  return picture;
+}
+
+/// @return a line for each reason why there are no pictures
+std::vector<std::string> write_pictures(const FrameRun& run, const OutputFolder& folder) {
+  return draw_pictures(
+      {{"phase", [&](const auto& stem) { return write_picture(phase_picture(run), stem); }},
+       {"frames", [&](const auto& stem) { return write_picture(images_picture(run), stem); }}},
+      folder);
 }
 
 // What it comes to --------------------------------------------------------------------------------
@@ -426,8 +492,10 @@ void run_reconstruct(const CommandLine& given) {
   write_images("frames.fits", run, record.folder(), &FrameReconstruction::measured);
   write_images("predicted.fits", run, record.folder(), &FrameReconstruction::predicted);
   record.folder().write("consistency.csv", consistency_table(run));
+  const std::vector<std::string> notes = write_pictures(run, record.folder());
   record.write_summary(summary_of(run, seeing.fried_parameter, planes));
 
+  for (const std::string& note : notes) record.print("note: {}\n", note);
   record.print("{}\n\n", telescope_line(telescope, seeing));
   record.print("{} of {} x {} pixels in {} planes, {}", configuration.text("frames.file"),
                measured.width(), measured.width(), design.planes.size(), sets_text(run));

@@ -149,6 +149,9 @@ TEST_F(Reconstruct, WritesItsFiles) {
     // Calibrated: its light is that of a pupil of intensity 1, its background is gone.
     EXPECT_NEAR(image.sum() / 804.0, std::stod(of["captured_energy"]), 0.02);
   }
+  for (const std::string name : {"phase.svg", "phase.png", "frames.svg", "frames.png"}) {
+    EXPECT_GT(std::filesystem::file_size("run/" + name), 2000u) << name;
+  }
   const nlohmann::json json = summary("run");
   EXPECT_EQ(json["command"], "reconstruct");
   EXPECT_EQ(json["config"]["detector.window"], "4");
