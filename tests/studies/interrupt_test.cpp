@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -11,12 +10,10 @@ namespace nlcwfs {
 namespace {
 
 using testing::AllOf;
-using testing::AnyOf;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
-using testing::StartsWith;
 using Json = nlohmann::json;
 
 constexpr int interrupted = 3;
@@ -231,7 +228,7 @@ TEST_F(Interrupt, BeforeThereIsAnythingItLeavesNothing) {
   const ProgramRun finished =
       run({"evaluate", "--output", "run", "--screens.count", "5000"}, "sh killed.sh ");
   EXPECT_EQ(finished.exit_code, 128 + SIGTERM);
-  EXPECT_EQ(finished.errors, "");
+  EXPECT_THAT(finished.errors, Not(HasSubstr("nlcwfs"))) << "the shell may say something";
   EXPECT_FALSE(std::filesystem::exists("run"));
 }
 

@@ -9,7 +9,6 @@ namespace nlcwfs {
 namespace {
 
 using testing::AllOf;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -172,14 +171,6 @@ TEST_F(ResponseStudy, OneWavefrontTellsNoSpread) {
        {"--detector.photons", "1e6", "--screens.count", "1", "--response.frequencies", "2"});
   EXPECT_FALSE(response_of("run").contains("amplitude_noise_nm"));
   EXPECT_THAT(contents("run/response.csv"), EndsWith(",,,\n"));
-}
-
-TEST_F(ResponseStudy, AnInterruptedOneEndsAtOnce) {
-  const ProgramRun finished =
-      run({"response", "--config", "tiny.cfg", "--output", "run", "--screens.count", "100000"},
-          "timeout --foreground --preserve-status --signal INT 1 ");
-  EXPECT_NE(finished.exit_code, 0);
-  EXPECT_THAT(names_in("run"), AllOf(Contains("config.cfg"), Not(Contains("summary.json"))));
 }
 
 }  // namespace
