@@ -34,6 +34,7 @@ const std::vector<Command>& commands();
 /// @pre there is such a command
 const Command& command_of(std::string_view name);
 
+/// Their names, in that order.
 std::vector<std::string> command_names();
 
 }  // namespace nlcwfs

@@ -46,6 +46,10 @@ class PythonExamples(unittest.TestCase):
     def setUpClass(cls) -> None:
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = Path(cls.folder.name)
+        cls.environment = {**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": str(cls.path / "mpl")}
+        # Matplotlib says on standard error when it makes its list of fonts.
+        subprocess.run([sys.executable, "-c", "import matplotlib.pyplot"], env=cls.environment,
+                       check=True, capture_output=True)
         (cls.path / "small.cfg").write_text(SMALL)
         cls.nlcwfs("optimize", "--config", "small.cfg", "--output", "search")
         cls.nlcwfs("screens", "--config", "small.cfg", "--output", "screens")
@@ -61,10 +65,9 @@ class PythonExamples(unittest.TestCase):
 
     def output_of(self, example: str, file: str) -> str:
         """What an example prints, once its picture has been found to show something."""
-        environment = {**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": str(self.path / "mpl")}
         done = subprocess.run(
             [sys.executable, str(EXAMPLES / f"{example}.py"), file, "picture.png"],
-            cwd=self.path, capture_output=True, text=True, env=environment)
+            cwd=self.path, capture_output=True, text=True, env=self.environment)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr, "")
         picture = matplotlib.image.imread(self.path / "picture.png")
