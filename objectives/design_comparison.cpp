@@ -16,18 +16,20 @@ double distinguishable(std::size_t screens) {
 
 }  // namespace
 
+Improvement improvement(const MeanAndError& cost, std::size_t screens) {
+  if (screens < 2 || std::abs(cost.mean) <= distinguishable(screens) * cost.standard_error) {
+    return {cost, Verdict::indistinguishable};
+  }
+  return {cost, cost.mean > 0.0 ? Verdict::better : Verdict::worse};
+}
+
 Improvement improvement(std::span<const double> candidate, std::span<const double> reference) {
   assert(candidate.size() == reference.size());
   std::vector<double> differences;
   for (std::size_t screen = 0; screen < candidate.size(); ++screen) {
     differences.push_back(reference[screen] - candidate[screen]);
   }
-  const MeanAndError cost = mean_and_standard_error(differences);
-  if (differences.size() < 2 ||
-      std::abs(cost.mean) <= distinguishable(differences.size()) * cost.standard_error) {
-    return {cost, Verdict::indistinguishable};
-  }
-  return {cost, cost.mean > 0.0 ? Verdict::better : Verdict::worse};
+  return improvement(mean_and_standard_error(differences), differences.size());
 }
 
 Improvement improvement(const TriedDesign& candidate, const TriedDesign& reference) {

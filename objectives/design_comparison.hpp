@@ -3,6 +3,7 @@
 #include "model/statistics.hpp"
 #include "objectives/design_trial.hpp"
 
+#include <cstddef>
 #include <span>
 
 namespace nlcwfs {
@@ -15,6 +16,10 @@ struct Improvement {
   MeanAndError cost = {};  ///< reference - candidate, paired by screen: above 0 is better
   Verdict verdict = Verdict::indistinguishable;  ///< by Student's t test at 5 %, two-sided
 };
+
+/// What a mean difference of costs over so many screens says; of one screen, nothing.
+/// @param cost  as Improvement has it
+Improvement improvement(const MeanAndError& cost, std::size_t screens);
 
 /// Compares figures, of which lower is better, of two designs on the same screens.
 Improvement improvement(std::span<const double> candidate, std::span<const double> reference);

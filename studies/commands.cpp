@@ -166,7 +166,16 @@ const std::vector<Command>& commands() {
            "standard error.",
        .keys = {"export"},
        .examples = {"nlcwfs export results/optimize-1 --export.formats csv,fits"},
-       .arguments = {"RUN"}}};
+       .arguments = {"RUN"}},
+      {.name = "report",
+       .group = files,
+       .description = "make the page report.html of a run's folder again",
+       .about = "Every run leaves report.html, a page that shows its results in a browser. This "
+                "makes it anew from the files that are in the folder, also where some are missing "
+                "or another version has written them, and says so. It writes nothing else.",
+       .keys = {},
+       .examples = {"nlcwfs report results/optimize-1"},
+       .arguments = {"DIR"}}};
   return known;
 }
 

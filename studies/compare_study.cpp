@@ -328,6 +328,14 @@ void run_compare(const CommandLine& command_line) {
   const double reconstructions_ratio =
       double(sweep.reconstructions) / double(optimize.reconstructions);
   const double seconds_ratio = sweep.seconds / optimize.seconds;
+  try {
+    if (const auto reason =
+            write_path_picture(sweep, optimize, telescope, seeing, record.folder())) {
+      fmt::print("note: there is no path.svg: {}\n", *reason);
+    }
+  } catch (const std::exception& error) {
+    fmt::print("note: there is no path.svg: {}\n", error.what());
+  }
   record.write_summary(
       {{"sweep", to_json(swept, trial)},
        {"optimize", to_json(found, trial)},
@@ -341,14 +349,6 @@ void run_compare(const CommandLine& command_line) {
            {"reconstructions", reconstructions_ratio},
            {"seconds", seconds_ratio}}}}}});
 
-  try {
-    if (const auto reason =
-            write_path_picture(sweep, optimize, telescope, seeing, record.folder())) {
-      fmt::print("note: there is no path.svg: {}\n", *reason);
-    }
-  } catch (const std::exception& error) {
-    fmt::print("note: there is no path.svg: {}\n", error.what());
-  }
   const Performance swept_performance = pooled(swept.performances);
   const Performance found_performance = pooled(found.performances);
   fmt::print("{}\n\n", telescope_line(telescope, seeing));

@@ -112,6 +112,26 @@ std::string performance_table(const std::vector<PerformanceColumn>& columns) {
   return table + '\n';
 }
 
+std::string baseline_verdict_text(const Improvement& improvement, double baseline_cost) {
+  switch (improvement.verdict) {
+    case Verdict::better:
+      return fmt::format(
+          "The best design beats the baseline: it costs {} less ({:.0f} %), screen by screen.",
+          with_error(improvement.cost), 100.0 * improvement.cost.mean / baseline_cost);
+    case Verdict::indistinguishable:
+      return fmt::format(
+          "The baseline is NOT beaten: on fresh screens its cost minus the best design's is {}, "
+          "which may well be chance.",
+          with_error(improvement.cost));
+    case Verdict::worse:
+      break;
+  }
+  return fmt::format(
+      "The baseline is NOT beaten: on fresh screens the best design that was found costs {} more. "
+      "Search longer (search.budget) or on more screens (screens.count).",
+      with_error({-improvement.cost.mean, improvement.cost.standard_error}));
+}
+
 std::string captured_energy_warnings(const SensorDesign& design, const Performance& performance) {
   std::string warnings;
   const std::vector<double> captured = performance.captured_energy();

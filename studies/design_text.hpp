@@ -4,6 +4,7 @@
 #include "model/seeing.hpp"
 #include "model/sensor_design.hpp"
 #include "model/telescope.hpp"
+#include "objectives/design_comparison.hpp"
 #include "objectives/design_space.hpp"
 
 #include <string>
@@ -37,6 +38,11 @@ struct PerformanceColumn {
 
 /// A table of the metrics that people look at first, one column per design.
 std::string performance_table(const std::vector<PerformanceColumn>& columns);
+
+/// Whether the best design of a search beats the baseline, as a sentence.
+/// @param improvement    of the best design on the baseline
+/// @param baseline_cost  the mean
+std::string baseline_verdict_text(const Improvement& improvement, double baseline_cost);
 
 /// A line for each plane whose window catches less than 90 % of the light; empty where none does.
 std::string captured_energy_warnings(const SensorDesign& design, const Performance& performance);

@@ -178,6 +178,16 @@ std::vector<double> DrawnGrid::values_of(const Json& matrix) const {
 
 }  // namespace
 
+std::vector<double> grid_place(const Json& grid, const SensorDesign& design) {
+  const std::vector<std::string> orders = grid.at("orders");
+  std::vector<double> place;
+  for (const Json& json : grid.at("axes")) {
+    const GridPictureAxis axis(json);
+    place.push_back(axis.place_of(design, orders) * axis.unit);
+  }
+  return place;
+}
+
 std::optional<std::string> write_grid_picture(const std::string& title, const Json& grid,
                                               const std::string& figure, const CostedDesign& best,
                                               const std::filesystem::path& stem,

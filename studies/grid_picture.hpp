@@ -39,4 +39,8 @@ std::optional<std::string> write_grid_picture(const std::string& title,
                                               const std::filesystem::path& stem,
                                               const std::optional<SearchPath>& search = {});
 
+/// Where a design stands on each axis of a sweep's grid: the axis' value, or the number of its word
+/// among the axis' words; NaN where nowhere.
+std::vector<double> grid_place(const nlohmann::ordered_json& grid, const SensorDesign& design);
+
 }  // namespace nlcwfs

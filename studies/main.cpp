@@ -56,6 +56,7 @@ void run(int argc, const char* const* argv) {
       {"export", run_export},
       {"law", run_law},
       {"optimize", run_optimize},
+      {"report", run_report},
       {"reproduce", run_reproduce},
       {"response", run_response},
       {"scale", run_scale},

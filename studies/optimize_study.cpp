@@ -110,27 +110,6 @@ std::string ranges_text(const DesignSearch& task, const DesignSearchResult& resu
   return text + '\n';
 }
 
-std::string verdict_text(const Improvement& improvement, const TriedDesign& baseline) {
-  switch (improvement.verdict) {
-    case Verdict::better:
-      return fmt::format(
-          "The best design beats the baseline: it costs {} less ({:.0f} %), screen by screen.",
-          with_error(improvement.cost),
-          100.0 * improvement.cost.mean / mean_and_standard_error(baseline.costs).mean);
-    case Verdict::indistinguishable:
-      return fmt::format(
-          "The baseline is NOT beaten: on fresh screens its cost minus the best design's is {}, "
-          "which may well be chance.",
-          with_error(improvement.cost));
-    case Verdict::worse:
-      break;
-  }
-  return fmt::format(
-      "The baseline is NOT beaten: on fresh screens the best design that was found costs {} more. "
-      "Search longer (search.budget) or on more screens (screens.count).",
-      with_error({-improvement.cost.mean, improvement.cost.standard_error}));
-}
-
 std::string limits_text(const TriedDesign& best) {
   if (best.violation == 0.0) return {};
   return fmt::format(
@@ -160,8 +139,10 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
                                 {"baseline", &baseline_performance, result.baseline.costs}}));
   fmt::print("{}\n{}{}", conditions_table(best, task.verification),
              ranking_text(result.ranking, "The search"), ranges_text(task, result));
-  fmt::print("{}\n{}{}", verdict_text(result.gain, result.baseline), limits_text(best),
-             captured_energy_warnings(best.design, best_performance));
+  fmt::print(
+      "{}\n{}{}",
+      baseline_verdict_text(result.gain, mean_and_standard_error(result.baseline.costs).mean),
+      limits_text(best), captured_energy_warnings(best.design, best_performance));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "studies/run_record.hpp"
 
+#include "studies/report_study.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -27,10 +28,20 @@ void RunRecord::write_summary(const nlohmann::ordered_json& results) const {
       {"command", command_line_.command}, {"version", version()}, {"config", config}};
   summary.update(results);
   folder_.write("summary.json", summary.dump(2) + "\n");
+  if (command_line_.silent) return;
+  try {
+    write_report(folder_.path());
+  } catch (const std::exception& error) {
+    fmt::print("note: there is no report.html: {}\n", error.what());
+  }
 }
 
 std::string RunRecord::closing_line() const {
-  return fmt::format("Results are in {}.", folder_.path().string());
+  const std::filesystem::path page = folder_.file("report.html");
+  return fmt::format(
+      "{}Results are in {}.",
+      std::filesystem::exists(page) ? fmt::format("Open {} in a browser.\n", page.string()) : "",
+      folder_.path().string());
 }
 
 }  // namespace nlcwfs

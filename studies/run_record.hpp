@@ -25,7 +25,8 @@ class RunRecord {
   Archive& archive() { return archive_; }
 
   /// Writes summary.json: command, version, config (every key with its text, null where not set),
-  /// then `results`.
+  /// then `results`. From it and the files that are there already it makes report.html, unless the
+  /// run is a silent part of another: call it last.
   void write_summary(const nlohmann::ordered_json& results) const;
 
   /// Prints on standard output, unless the run is a silent part of another.
@@ -34,7 +35,8 @@ class RunRecord {
     if (!command_line_.silent) fmt::print(format, std::forward<Values>(values)...);
   }
 
-  /// "Results are in results/optimize-1."
+  /// "Open results/optimize-1/report.html in a browser.", where it is there, and "Results are in
+  /// results/optimize-1."
   std::string closing_line() const;
 
  private:

@@ -41,6 +41,9 @@ void run_advise(const CommandLine& command_line);
 /// interrupted goes on with --resume.
 void run_reproduce(const CommandLine& command_line);
 
+/// The page of an earlier run, again. Makes no output folder.
+void run_report(const CommandLine& command_line);
+
 /// How fast this machine is at the configuration. Makes an output folder only where the user named
 /// one: its figures are of the moment.
 void run_benchmark(const CommandLine& command_line);

@@ -22,7 +22,7 @@ using Advise = Program;
 TEST_F(Advise, LeavesItsFiles) {
   const ProgramRun finished = done("advise", "run");
   EXPECT_THAT(names_in("run"), ElementsAre("advised.cfg", "archive.sqlite", "config.cfg",
-                                           "law.json", "summary.json"));
+                                           "law.json", "report.html", "summary.json"));
   EXPECT_THAT(finished.output, AllOf(HasSubstr("0.5 m telescope at 532 nm, D/r0 = 4"),
                                      HasSubstr("Fresnel number"), HasSubstr("residual WFE, nm"),
                                      HasSubstr("fractional loops"), Not(HasSubstr("simulated")),

@@ -73,7 +73,8 @@ TEST_F(BenchmarkStudy, HasTwoFiguresAboveZeroInEveryRow) {
 
 TEST_F(BenchmarkStudy, WritesOnlyIntoAFolderOfTheUsers) {
   const ProgramRun finished = done("benchmark", "run");
-  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "config.cfg", "summary.json"));
+  EXPECT_THAT(names_in("run"),
+              ElementsAre("archive.sqlite", "config.cfg", "report.html", "summary.json"));
   EXPECT_THAT(finished.output, EndsWith("Results are in run.\n"));
   const Json json = summary("run");
   EXPECT_EQ(json.at("command"), "benchmark");

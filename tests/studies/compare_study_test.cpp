@@ -38,8 +38,8 @@ TEST_F(CompareStudy, LeavesItsFiles) {
       finished.output,
       AllOf(StartsWith("0.5 m telescope"), HasSubstr("seed 1000004, which neither has seen"),
             HasSubstr("what finding it took"), EndsWith("Results are in run.\n")));
-  EXPECT_THAT(names_in("run"),
-              ElementsAre("archive.sqlite", "config.cfg", "path.png", "path.svg", "summary.json"));
+  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "config.cfg", "path.png", "path.svg",
+                                           "report.html", "summary.json"));
   const Json json = summary("run");
   EXPECT_EQ(json.at("command"), "compare");
   EXPECT_EQ(json.at("config").at("verify.seed"), "1000004");

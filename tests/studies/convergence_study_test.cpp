@@ -19,7 +19,7 @@ TEST_F(Convergence, LeavesItsFiles) {
   const ProgramRun finished = done("convergence", "run", {"--reconstruction.max_loops", "9"});
   EXPECT_THAT(names_in("run"),
               ElementsAre("archive.sqlite", "config.cfg", "convergence.csv", "convergence.png",
-                          "convergence.svg", "screens.csv", "summary.json"));
+                          "convergence.svg", "report.html", "screens.csv", "summary.json"));
   EXPECT_THAT(finished.output, AllOf(StartsWith("0.5 m telescope"), HasSubstr("After each loop"),
                                      EndsWith("Results are in run.\n")));
   const nlohmann::json residuals = summary("run").at("residual_after_loops_nm");

@@ -178,7 +178,11 @@ TEST_F(Reproduce, LeavesItsRunsAndOneReport) {
   const ProgramRun finished = done("reproduce", "run", small);
   EXPECT_THAT(names_in("run"),
               IsSupersetOf({"archive.sqlite", "claims.csv", "config.cfg", "figure-3", "figure-4",
-                            "report.md", "scaling", "summary.json"}));
+                            "report.html", "report.md", "scaling", "summary.json"}));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator("run")) {
+    if (entry.path().filename() != "report.html") continue;
+    EXPECT_EQ(entry.path(), "run/report.html") << "a part has a page of its own";
+  }
   EXPECT_THAT(finished.output, AllOf(HasSubstr("Figure 4: Three planes take more loops."),
                                      EndsWith("Results are in run.\n")));
   const nlohmann::json json = summary("run");

@@ -46,8 +46,9 @@ class ResponseStudy : public Program {
 
 TEST_F(ResponseStudy, LeavesItsFiles) {
   const ProgramRun finished = done("response", "run");
-  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "config.cfg", "response.csv",
-                                           "response.png", "response.svg", "summary.json"));
+  EXPECT_THAT(names_in("run"),
+              ElementsAre("archive.sqlite", "config.cfg", "report.html", "response.csv",
+                          "response.png", "response.svg", "summary.json"));
   EXPECT_THAT(finished.output,
               AllOf(StartsWith("0.5 m telescope at 532 nm"), HasSubstr("Sinusoids of 10 nm (peak)"),
                     HasSubstr("recovered share"), Not(HasSubstr("noise")),
@@ -127,7 +128,7 @@ TEST_F(ResponseStudy, PairsAreDesignsOfTheirOwn) {
       done("response", "run",
            {"--response.distances", "20km:80km:3", "--response.frequencies", "1:5:3"});
   EXPECT_THAT(names_in("run"),
-              ElementsAre("archive.sqlite", "config.cfg", "response-map-loops.png",
+              ElementsAre("archive.sqlite", "config.cfg", "report.html", "response-map-loops.png",
                           "response-map-loops.svg", "response-map-recovered.png",
                           "response-map-recovered.svg", "response-map-residual.png",
                           "response-map-residual.svg", "response.csv", "response.png",

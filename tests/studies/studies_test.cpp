@@ -86,8 +86,8 @@ using Studies = Program;
 
 TEST_F(Studies, EvaluateLeavesItsFiles) {
   const ProgramRun finished = done("evaluate", "run");
-  EXPECT_THAT(names_in("run"),
-              ElementsAre("archive.sqlite", "config.cfg", "screens.csv", "summary.json"));
+  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "config.cfg", "report.html",
+                                           "screens.csv", "summary.json"));
   EXPECT_THAT(finished.output, AllOf(StartsWith("0.5 m telescope at 532 nm, D/r0 = 4"),
                                      HasSubstr("residual WFE, nm"), HasSubstr("2 screens"),
                                      EndsWith("Results are in run.\n")));
@@ -276,8 +276,8 @@ TEST_F(Studies, OptimizeSaysWhereTheBaselineIsNotBeaten) {
 
 TEST_F(Studies, OptimizeLeavesItsFiles) {
   const ProgramRun finished = done("optimize", "run");
-  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "search.csv",
-                                           "summary.json"));
+  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "best.cfg", "config.cfg",
+                                           "report.html", "search.csv", "summary.json"));
   EXPECT_THAT(finished.output,
               AllOf(HasSubstr("6 designs on 2 screens"), HasSubstr("2 fresh screens"),
                     HasSubstr("aseline"), EndsWith("Results are in run.\n")));
@@ -350,8 +350,9 @@ TEST_F(Studies, OptimizeSearchesFreeLayoutsOfAnyPlaneCount) {
 
 TEST_F(Studies, ScreensLeavesItsFiles) {
   const ProgramRun finished = done("screens", "run");
-  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "config.cfg", "screens.fits",
-                                           "structure_function.csv", "summary.json"));
+  EXPECT_THAT(names_in("run"),
+              ElementsAre("archive.sqlite", "config.cfg", "report.html", "screens.fits",
+                          "structure_function.csv", "summary.json"));
   EXPECT_THAT(finished.output,
               AllOf(HasSubstr("2 screens of 32 x 32 samples"), EndsWith("Results are in run.\n")));
   const Json json = summary("run");
@@ -372,8 +373,8 @@ TEST_F(Studies, ScreensLeavesItsFiles) {
 
 TEST_F(Studies, ScaleLeavesItsFiles) {
   const ProgramRun finished = done("scale", "run", {"--scale.diameter", "2m"});
-  EXPECT_THAT(names_in("run"),
-              ElementsAre("archive.sqlite", "config.cfg", "scaled.cfg", "summary.json"));
+  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "config.cfg", "report.html",
+                                           "scaled.cfg", "summary.json"));
   EXPECT_THAT(finished.output,
               AllOf(StartsWith("From: 0.5 m telescope"), HasSubstr("To: 2 m telescope"),
                     HasSubstr("scaled.cfg"), EndsWith("Results are in run.\n")));

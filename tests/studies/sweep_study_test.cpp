@@ -72,7 +72,7 @@ TEST_F(SweepStudy, LeavesItsFiles) {
       names_in("run"),
       ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "map-cost.png", "map-cost.svg",
                   "map-fractional_loops.png", "map-fractional_loops.svg", "map-residual_wfe.png",
-                  "map-residual_wfe.svg", "summary.json", "sweep.csv"));
+                  "map-residual_wfe.svg", "report.html", "summary.json", "sweep.csv"));
   EXPECT_THAT(finished.output,
               AllOf(StartsWith("0.5 m telescope"), HasSubstr("12 designs at 12 points of a grid"),
                     HasSubstr("2 fresh"), EndsWith("Results are in run.\n")));
@@ -185,8 +185,8 @@ TEST_F(SweepStudy, HasNoPicturesWithoutGnuplotAndSaysSo) {
       run({"sweep", "--config", "tiny.cfg", "--output", "run"}, "PATH=/nowhere ");
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   EXPECT_THAT(finished.output, HasSubstr("note: there is no map-cost.svg: gnuplot: No such file"));
-  EXPECT_THAT(names_in("run"),
-              ElementsAre("archive.sqlite", "best.cfg", "config.cfg", "summary.json", "sweep.csv"));
+  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "best.cfg", "config.cfg",
+                                           "report.html", "summary.json", "sweep.csv"));
 }
 
 TEST_F(SweepStudy, ADesignThatFailsLeavesAGap) {

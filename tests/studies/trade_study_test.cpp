@@ -51,8 +51,9 @@ class TradeStudy : public Program {
 
 TEST_F(TradeStudy, LeavesItsFiles) {
   const ProgramRun finished = traded("run");
-  EXPECT_THAT(names_in("run"), ElementsAre("archive.sqlite", "config.cfg", "front.csv", "front.png",
-                                           "front.svg", "knee.cfg", "search.csv", "summary.json"));
+  EXPECT_THAT(names_in("run"),
+              ElementsAre("archive.sqlite", "config.cfg", "front.csv", "front.png", "front.svg",
+                          "knee.cfg", "report.html", "search.csv", "summary.json"));
   EXPECT_THAT(finished.output,
               AllOf(StartsWith("0.5 m telescope at 532 nm, D/r0 = 4"),
                     HasSubstr("Tried 72 designs of 2 to 5 planes on 2 screens"),

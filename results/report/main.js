@@ -1,0 +1,84 @@
+"use strict";
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const sections = document.getElementById("sections");
+
+/** Does what fills a part of the page; where it fails, the part says so, and the others stand. */
+function attempt(part, action) {
+  try {
+    action();
+  } catch (error) {
+    part.append(element("p", {className: "failed"},
+      `This part cannot be shown: ${error.message}. The files of the run have its numbers.`));
+    console.error(error);
+  }
+}
+
+/** A part of the page. */
+function section(title, fill) {
+  const part = element("section", {}, element("h2", {}, title));
+  sections.append(part);
+  attempt(part, () => fill(part));
+}
+
+const titles = {
+  advise: "Advised design",
+  benchmark: "Speed of this machine",
+  compare: "Sweep against search",
+  convergence: "From loop to loop",
+  evaluate: "Performance of a design",
+  export: "Evaluations of a run",
+  law: "Scaling law",
+  optimize: "Best design",
+  reconstruct: "Reconstructed wavefront",
+  reproduce: "Letchev, Crass, Crepp & Potier 2022, claim by claim",
+  response: "Response to single spatial frequencies",
+  scale: "Moved design",
+  screens: "Phase screens",
+  sweep: "Sweep of a grid",
+  trade: "Front of the best compromises",
+};
+
+function showHead() {
+  const head = document.getElementById("head");
+  head.append(themeSwitch(), element("h1", {}, titles[data.command] ?? data.command));
+  if (data.telescope) head.append(element("p", {}, data.telescope));
+  if (data.verdict) head.append(element("p", {className: "verdict"}, typeset(data.verdict)));
+  head.append(element("p", {className: "faint"},
+    `nlcwfs ${data.command}, version ${data.version}; the run's summary is of ${data.written}.`));
+  for (const note of data.notes) head.append(element("p", {className: "note"}, note));
+}
+
+/** The design that a command's configuration file holds. */
+const ends = {advise: "the advised design", optimize: "the best design", scale: "the moved design",
+  sweep: "the best design", trade: "the knee"};
+
+function showConfigurations() {
+  const design = data.design_configuration;
+  if (design) {
+    section(`Configuration of ${ends[data.command] ?? "this design"}`, (part) => part.append(
+      element("p", {}, `As it is in ${design.file}: nlcwfs evaluate --config ${design.file} tries it.`),
+      copyable(withoutComments(design.text))));
+  }
+  if (data.configuration) {
+    section("Configuration of the run", (part) => part.append(
+      element("p", {}, "Every key with its value: --config config.cfg repeats the run."),
+      folded("config.cfg", copyable(data.configuration))));
+  }
+}
+
+function withoutComments(text) {
+  return text.split("\n").filter((line) => line && !line.startsWith("#")).join("\n") + "\n";
+}
+
+const pages = {
+  advise: showAdvice, benchmark: showBenchmark, compare: showComparison,
+  convergence: showConvergence, evaluate: showEvaluation, export: showExport, law: showLaw, optimize: showOptimization,
+  reconstruct: showReconstruction, reproduce: showReproduction, response: showResponse,
+  scale: showScaling, screens: showScreens, sweep: showSweep, trade: showTrade,
+};
+
+document.documentElement.dataset.theme = themeName();
+showHead();
+attempt(sections, () => pages[data.command](data.summary));
+showConfigurations();

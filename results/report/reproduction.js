@@ -1,0 +1,179 @@
+"use strict";
+
+// reproduce: the paper's claims and figures.
+
+const setupTitles = {paper: "the paper's set-up", extended: "extended truth, rule difference"};
+
+function showReproduction() {
+  const claims = data.tables?.["claims.csv"];
+  if (claims?.claim) section("Claims", (part) => showClaims(part, claims));
+  showPaperMaps("3", "Figure 3: four planes");
+  showPaperMaps("4", "Figure 4: three planes");
+  showPaperCurves("5", "Figure 5: a fifth plane", fifthPlane);
+  showPaperCurves("6", "Figure 6: sampling", sampling);
+  showPaperCurves("7", "Figure 7: loops with a medium band", (part, columns, caption) =>
+    convergenceChart(part, columns, caption));
+  showPaperCurves("8", "Figure 8: bands", bands);
+  const response = data.tables?.["response.csv"];
+  if (response?.planes) {
+    section("Response to single spatial frequencies", (part) => {
+      responseCharts(part, response);
+      pairsExplorer(part, response);
+    });
+  }
+  const photons = data.tables?.["response-photons.csv"];
+  if (photons?.planes) section("The same with photon noise", (part) => responseCharts(part, photons));
+  const numerics = data.tables?.["numerics.csv"];
+  if (numerics?.variant) section("What the numerics decide", (part) => showNumerics(part, numerics));
+}
+
+/** Every claim of the paper, with filters. */
+function showClaims(part, claims) {
+  const all = claims.claim.map((_, i) => i);
+  const chosen = {figure: "", setup: "", verdict: ""};
+  const place = element("div");
+  const verdict = (setup, i) => element("div", {},
+    element("span", {className: claims[`${setup}_verdict`][i].replaceAll("reproduced in trend", "in-trend")
+      .replaceAll(" ", "-")}, claims[`${setup}_verdict`][i]),
+    element("div", {}, typeset(claims[`${setup}_number`][i])),
+    element("div", {className: "faint"}, typeset(claims[`${setup}_why`][i])));
+  const show = () => {
+    const setups = chosen.setup ? [chosen.setup] : Object.keys(setupTitles);
+    const kept = all.filter((i) => (!chosen.figure || String(claims.figure[i]) === chosen.figure) &&
+      (!chosen.verdict || setups.some((setup) => claims[`${setup}_verdict`][i] === chosen.verdict)));
+    place.replaceChildren(
+      element("p", {className: "faint", role: "status"}, `${kept.length} of ${all.length} claims.`),
+      table(["figure", "the paper says", ...setups.map((setup) => setupTitles[setup]),
+        "counts as reproduced"],
+      kept.map((i) => [String(claims.figure[i]),
+        element("div", {}, claims.claim[i], element("div", {className: "faint"}, claims.papers_number[i])),
+        ...setups.map((setup) => verdict(setup, i)), claims.rule[i]])));
+    for (const cell of place.querySelectorAll("td:not(.number)")) {
+      if (cell.firstElementChild || cell.textContent.length > 20) cell.classList.add("wide");
+    }
+  };
+  const set = (key) => (value) => {
+    chosen[key] = value;
+    show();
+  };
+  const figures = [...new Set(claims.figure.map(String))];
+  const verdicts = [...new Set([...claims.paper_verdict, ...claims.extended_verdict])].sort();
+  part.append(element("div", {className: "controls"},
+    menu("Figure", [["", "all"], ...figures.map((one) => [one, one])], "", set("figure")),
+    menu("Set-up", [["", "both"], ...Object.entries(setupTitles)], "", set("setup")),
+    menu("Verdict", [["", "all"], ...verdicts.map((one) => [one, one])], "", set("verdict"))), place);
+  show();
+}
+
+/** The tables of a figure: [[name behind the figure's number, columns], ...] */
+function paperTables(figure) {
+  const start = `figure-${figure}-`;
+  return Object.entries(data.tables ?? {}).filter(([name]) => name.startsWith(start))
+    .map(([name, columns]) => [name.slice(start.length, -".csv".length), columns])
+    .filter(([, columns]) => Object.keys(columns).length > 0);
+}
+
+/** "paper-4" in words. */
+function paperTitle(name) {
+  const [setup, ...rest] = name.split("-");
+  const what = rest.join(" ").replace(/^(\d+)$/, "D/r0 = $1").replace(/ p(\d)$/, " P$1");
+  return [setupTitles[setup] ?? setup, what].filter(Boolean).join(", ");
+}
+
+/** Maps over the distances of two pairs, as the paper draws them: Z_far to the right. */
+function showPaperMaps(figure, title) {
+  const tables = paperTables(figure);
+  if (tables.length === 0) return;
+  section(title, (part) => {
+    const chosen = {name: tables.find(([name]) => name.startsWith("paper"))?.[0] ?? tables[0][0]};
+    const grid = element("div", {className: "side-by-side"});
+    const quantities = {residual_wfe: "residual WFE, nm", loops: "loops"};
+    const made = [];
+    part.append(element("div", {className: "controls"}, menu("Map", tables.map(([name]) =>
+      [name, paperTitle(name)]), chosen.name, (name) => {
+      chosen.name = name;
+      for (const one of made) one.redraw();
+    })), grid);
+    for (const [quantity, quantityTitle] of Object.entries(quantities)) {
+      made.push(chart(grid, "", (theme) => {
+        const columns = tables.find(([name]) => name === chosen.name)[1];
+        const axis = (name) => [...new Set(columns[name])].sort((a, b) => a - b);
+        const near = axis("z_near_m");
+        const far = axis("z_far_m");
+        const matrix = (column) => {
+          const values = near.map(() => far.map(() => null));
+          columns[column].forEach((value, i) => {
+            values[near.indexOf(columns.z_near_m[i])][far.indexOf(columns.z_far_m[i])] = value;
+          });
+          return values;
+        };
+        const column = quantity === "residual_wfe" ? "residual_wfe_nm" : "loops";
+        const errors = quantity === "residual_wfe" ? "residual_wfe_standard_error_nm"
+          : "loops_standard_error";
+        const x = {...drawnAxis({name: "Z far", unit: "m", values: far}), isLog: false};
+        const y = {...drawnAxis({name: "Z near", unit: "m", values: near}), isLog: false};
+        return {data: mapTraces(theme, {x, y, values: matrix(column), errors: matrix(errors),
+          title: quantityTitle}), layout: {xaxis: axisLayout(x), yaxis: axisLayout(y)}};
+      }, 400));
+    }
+  });
+}
+
+function showPaperCurves(figure, title, drawTable) {
+  const tables = paperTables(figure);
+  if (tables.length === 0) return;
+  section(title, (part) => {
+    const grid = element("div", {className: "side-by-side"});
+    part.append(grid);
+    for (const [name, columns] of tables.reverse()) drawTable(grid, columns, paperTitle(name));
+  });
+}
+
+function fifthPlane(part, columns, caption) {
+  for (const [name, errors, title] of [
+    ["residual_wfe_nm", "residual_wfe_standard_error_nm", "residual WFE, nm"],
+    ["loops", "loops_standard_error", "loops"]]) {
+    chart(part, `${caption}: ${title}`, (theme) => ({
+      data: lineTraces(theme, [{x: columns.z5_m.map((z) => z / 1e3), y: columns[name],
+        errors: columns[errors]}]),
+      layout: {xaxis: {title: {text: "Z of the fifth plane, km"}}, yaxis: {title: {text: title}}},
+    }), 320);
+  }
+}
+
+function sampling(part, columns, caption) {
+  const ratios = [...new Set(columns.d_over_r0)];
+  chart(part, caption, (theme) => ({
+    data: lineTraces(theme, ratios.map((ratio, i) => {
+      const rows = rowsOf(columns, "d_over_r0", ratio);
+      return {name: `D/r0 = ${ratio}`, x: rows.pixels_per_r0, y: rows.field_strehl,
+        errors: rows.field_strehl_standard_error, colour: i};
+    })),
+    layout: {xaxis: {title: {text: "pixels per r<sub>0</sub>"}, ...scale(true, columns.pixels_per_r0)},
+      yaxis: {title: {text: "field-estimated Strehl"}}},
+  }), 340);
+}
+
+function bands(part, columns, caption) {
+  const names = [...new Set(columns.band)];
+  chart(part, `${caption}; bars are standard deviations, as in the paper.`, (theme) => ({
+    data: lineTraces(theme, names.map((name, i) => {
+      const rows = rowsOf(columns, "band", name);
+      return {name, x: rows.loop, y: rows.residual_wfe_nm, errors: rows.standard_deviation_nm, colour: i};
+    })),
+    layout: {xaxis: {title: {text: "loops"}}, yaxis: {...scale(true, columns.residual_wfe_nm), title: {text: "residual WFE, nm"}}},
+  }), 340);
+}
+
+function showNumerics(part, numerics) {
+  const quantity = (name, errors, i) =>
+    withError({mean: numerics[name][i], standard_error: numerics[errors][i]});
+  part.append(element("p", {}, "The paper's set-up with one thing changed at a time."),
+    table(["variant", "probe", "residual WFE, nm", "loops", "field-estimated Strehl", "converged"],
+      numerics.variant.map((variant, i) => [variant, numerics.probe[i],
+        quantity("residual_wfe_nm", "residual_wfe_standard_error_nm", i),
+        quantity("loops", "loops_standard_error", i),
+        quantity("field_strehl", "field_strehl_standard_error", i),
+        numerics.converged_fraction[i] === null ? "–"
+          : `${digits(100 * numerics.converged_fraction[i])} %`])));
+}
