@@ -76,16 +76,20 @@ bool Bounds::contain(double value) const {
          (greatest_included ? value <= greatest : value < greatest);
 }
 
-std::string Bounds::text() const {
+std::string Bounds::text(std::string_view unit) const {
   const bool below = std::isfinite(least);
   const bool above = std::isfinite(greatest);
+  const auto shown = [unit](double value) {
+    return value == 0.0 || unit.empty() ? fmt::format("{}", value)
+                                        : fmt::format("{} {}", value, unit);
+  };
   if (below && above && least_included && greatest_included) {
-    return fmt::format("from {} to {}", least, greatest);
+    return fmt::format("from {} to {}", shown(least), shown(greatest));
   }
   std::string text;
-  if (below) text = fmt::format("{} {}", least_included ? "at least" : "above", least);
+  if (below) text = fmt::format("{} {}", least_included ? "at least" : "above", shown(least));
   if (below && above) text += " and ";
-  if (above) text += fmt::format("{} {}", greatest_included ? "at most" : "below", greatest);
+  if (above) text += fmt::format("{} {}", greatest_included ? "at most" : "below", shown(greatest));
   return text;
 }
 
@@ -107,10 +111,15 @@ std::string_view ConfigurationKey::unit_text() const {
   }
 }
 
+std::string ConfigurationKey::bounds_text() const {
+  const std::string_view shown = unit_text();
+  return bounds.text(shown == "m" || shown == "s" ? shown : "");
+}
+
 std::string ConfigurationKey::allowed() const {
   const std::string& shown = example.empty() ? default_text : example;
   const std::string such_as = shown.empty() ? shown : fmt::format(", such as {}", shown);
-  const std::string limits = bounds.text();
+  const std::string limits = bounds_text();
   const std::string range = limits.empty() ? limits : fmt::format(" {}", limits);
   switch (kind) {
     case Kind::number:
@@ -335,6 +344,7 @@ void Configuration::set(std::string_view key, std::string_view value, std::strin
 
 const std::string& Configuration::text_of(std::string_view key, [[maybe_unused]] Kind kind) const {
   assert(configuration_keys().at(index_of(key)).kind == kind);
+  note_read(key);
   return value_text(key);
 }
 
@@ -402,7 +412,14 @@ const std::string& Configuration::text(std::string_view key) const {
   return text_of(key, Kind::text);
 }
 
-bool Configuration::is_set(std::string_view key) const { return !value_text(key).empty(); }
+void Configuration::note_read(std::string_view key) const {
+  if (reads_ != nullptr) reads_->emplace(key);
+}
+
+bool Configuration::is_set(std::string_view key) const {
+  note_read(key);
+  return !value_text(key).empty();
+}
 
 const std::string& Configuration::source(std::string_view key) const {
   return values_.at(index_of(key)).source;

@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,8 +45,9 @@ struct Bounds {
 
   /// Whether a value is allowed.
   bool contain(double value) const;
-  /// For people: "above 0", "from 1 to 64"; empty without bounds.
-  std::string text() const;
+  /// For people: "above 0", "from 1 to 64", "at most 0.001 m"; empty without bounds.
+  /// @param unit  of what is not 0; empty where it is said elsewhere
+  std::string text(std::string_view unit = {}) const;
 };
 
 /// One row of the table of configuration keys, which is also the user's documentation of them.
@@ -59,11 +62,14 @@ struct ConfigurationKey {
   std::string example = {};               ///< for messages; the default where empty
   Kind element = Kind::number;            ///< of a domain's or axis's values: number, integer,
                                           ///< length, time or choice
+  bool is_file = false;                   ///< whether the text names a file
 
   /// What a value may be, for messages and documentation: "a length above 0, such as 0.5m".
   std::string allowed() const;
   /// m, s, arcsec, ...; empty for what has no unit.
   std::string_view unit_text() const;
+  /// Its bounds for people, in the unit where it is m or s.
+  std::string bounds_text() const;
   /// Whether `value` is well-formed and within bounds.
   bool accepts(std::string_view value) const;
   /// Reads one value of a domain or axis; a choice is its index.
@@ -149,6 +155,11 @@ class Configuration {
   /// The value as written, of any kind; empty where not set. For messages about values.
   const std::string& value_text(std::string_view key) const;
 
+  /// Adds every key whose meaning is asked for from now on, here or in a copy, to a set: what a
+  /// command reads. What only repeats values (value_text, source, dump) does not count.
+  /// @param reads  outlives this configuration and its copies; not safe from several threads
+  void note_reads_in(std::set<std::string, std::less<>>& reads) { reads_ = &reads; }
+
   /// Every key with its documentation and value, as a file for read_file that gives an equal
   /// configuration. Keys that are not set stand in a comment.
   std::string dump() const;
@@ -162,8 +173,10 @@ class Configuration {
     std::string source;
   };
   const std::string& text_of(std::string_view key, Kind kind) const;
+  void note_read(std::string_view key) const;
 
   std::vector<Value> values_;  // in the order of configuration_keys()
+  std::set<std::string, std::less<>>* reads_ = nullptr;
 };
 
 }  // namespace nlcwfs

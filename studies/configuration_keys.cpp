@@ -9,6 +9,10 @@ Bounds above(double least) { return {.least = least, .least_included = false}; }
 Bounds at_least(double least) { return {.least = least}; }
 Bounds from_to(double least, double greatest) { return {.least = least, .greatest = greatest}; }
 
+/// Of a telescope, and of light that it looks at: a number without its unit is beyond.
+constexpr Bounds diameter_bounds{.least = 0.0, .greatest = 1e3, .least_included = false};
+constexpr Bounds wavelength_bounds{.least = 0.0, .greatest = 1e-3, .least_included = false};
+
 /// The relaxation beta diverges at both ends.
 constexpr Bounds relaxation_bounds{
     .least = -1.0, .greatest = 1.0, .least_included = false, .greatest_included = false};
@@ -90,12 +94,12 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::length,
        .default_text = "0.5m",
        .description = "Pupil diameter D.",
-       .bounds = above(0)},
+       .bounds = diameter_bounds},
       {.name = "telescope.wavelength",
        .kind = Kind::length,
        .default_text = "532nm",
        .description = "Wavelength that the sensor works at.",
-       .bounds = above(0)},
+       .bounds = wavelength_bounds},
       {.name = "telescope.central_obscuration",
        .kind = Kind::number,
        .default_text = "0",
@@ -134,7 +138,7 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::length,
        .description = "Wavelength at which fried_parameter or fwhm holds; r0 goes with its power "
                       "6/5. Not set: telescope.wavelength.",
-       .bounds = above(0),
+       .bounds = wavelength_bounds,
        .example = "500nm"},
       {.name = "seeing.outer_scale",
        .kind = Kind::length,
@@ -149,7 +153,7 @@ std::vector<ConfigurationKey> make_keys() {
            "plane in visiting order. A plane stands where the middle of its band has the Fresnel "
            "number that telescope.wavelength has at the distance of sensor.planes. Not set: "
            "telescope.wavelength alone.",
-       .bounds = above(0),
+       .bounds = wavelength_bounds,
        .example = "400nm:500nm,500nm:600nm,600nm:700nm,700nm:800nm"},
       {.name = "source.division",
        .kind = Kind::choice,
@@ -191,7 +195,8 @@ std::vector<ConfigurationKey> make_keys() {
        .description =
            "FITS cube of phase screens (n x n x count) to use instead of simulated ones, "
            "in rad at telescope.wavelength, or in m of optical path with BUNIT = 'm'.",
-       .example = "screens.fits"},
+       .example = "screens.fits",
+       .is_file = true},
 
       {.name = "sensor.planes",
        .kind = Kind::length_list,
@@ -207,19 +212,22 @@ std::vector<ConfigurationKey> make_keys() {
            "Measured detector frames for the command reconstruct, a FITS file: columns x rows x "
            "planes in the order of sensor.planes, and where there are several sets of frames a "
            "fourth axis. In any unit; values that are not finite count as bad pixels.",
-       .example = "frames.fits"},
+       .example = "frames.fits",
+       .is_file = true},
       {.name = "frames.background",
        .kind = Kind::text,
        .default_text = "0",
        .description =
            "What the frames have without light, in their unit, which is subtracted: a number, or a "
            "FITS file of one image for all planes, one for each, or as many as there are frames.",
-       .example = "100 or dark.fits"},
+       .example = "100 or dark.fits",
+       .is_file = true},
       {.name = "frames.bad_pixels",
        .kind = Kind::text,
        .description = "FITS file that is not 0 where a pixel is bad, one image for all planes or "
                       "one for each. What bad pixels would have seen is left open.",
-       .example = "bad-pixels.fits"},
+       .example = "bad-pixels.fits",
+       .is_file = true},
       {.name = "frames.saturation",
        .kind = Kind::number,
        .description = "Value of the frames from which on a pixel counts as bad. Not set: none.",
@@ -654,7 +662,8 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::text,
        .description = "File of the scaling law that advise follows, such as a run of advise leaves "
                       "as law.json. Not set: the law that is built into the program.",
-       .example = "law.json"},
+       .example = "law.json",
+       .is_file = true},
 
       {.name = "law.d_over_r0",
        .kind = Kind::number_list,
@@ -704,12 +713,12 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::length,
        .description = "Pupil diameter of the telescope that a design is moved to. Not set: as "
                       "telescope.diameter.",
-       .bounds = above(0),
+       .bounds = diameter_bounds,
        .example = "8.2m"},
       {.name = "scale.wavelength",
        .kind = Kind::length,
        .description = "Wavelength that a design is moved to. Not set: as telescope.wavelength.",
-       .bounds = above(0),
+       .bounds = wavelength_bounds,
        .example = "850nm"},
       {.name = "scale.relay_beam_diameter",
        .kind = Kind::length,

@@ -60,7 +60,7 @@ std::string key_text(const ConfigurationKey& key) {
   std::string text = key.description;
   if (!key.unit.empty()) text += fmt::format(" In {}.", key.unit);
   if (key.kind == Kind::choice) text += fmt::format(" {}.", fmt::join(key.choices, " | "));
-  const std::string bounds = key.bounds.text();
+  const std::string bounds = key.bounds_text();
   if (!bounds.empty()) text += fmt::format(" Allowed: {}.", bounds);
   if (!key.default_text.empty()) text += fmt::format(" [{}]", key.default_text);
   return text;

@@ -2,7 +2,6 @@
 
 #include "studies/configuration.hpp"
 
-#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -70,11 +69,6 @@ const std::vector<ProgramOption>& program_options() {
   return options;
 }
 
-bool names_file(const ConfigurationKey& key) {
-  const std::string extension = std::filesystem::path(key.example).extension().string();
-  return key.kind == Kind::text && (extension == ".fits" || extension == ".json");
-}
-
 std::string value_name(const ConfigurationKey& key) {
   switch (key.kind) {
     case Kind::number:
@@ -103,7 +97,7 @@ std::string value_name(const ConfigurationKey& key) {
     case Kind::choice:
       return "WORD";
     case Kind::text:
-      return names_file(key) ? "FILE" : "TEXT";
+      return key.is_file ? "FILE" : "TEXT";
   }
   return "TEXT";
 }

@@ -21,9 +21,6 @@ struct ProgramOption {
 /// Every such option, in the order of the help.
 const std::vector<ProgramOption>& program_options();
 
-/// Whether a key's text is the name of a file, as its example shows.
-bool names_file(const ConfigurationKey& key);
-
 /// What stands for a key's value in the help: "LENGTH", "NUMBERS", ...
 std::string value_name(const ConfigurationKey& key);
 

@@ -25,9 +25,9 @@ void RunRecord::write_summary(const nlohmann::ordered_json& results) const {
   nlohmann::ordered_json config;
   for (const ConfigurationKey& key : configuration_keys()) {
     const Configuration& configuration = command_line_.configuration;
-    config[key.name] = configuration.is_set(key.name)
-                           ? nlohmann::ordered_json(configuration.value_text(key.name))
-                           : nlohmann::ordered_json(nullptr);
+    const std::string& value = configuration.value_text(key.name);
+    config[key.name] =
+        value.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
   }
   nlohmann::ordered_json summary{{"command", command_line_.command},
                                  {"version", version()},

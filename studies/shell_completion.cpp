@@ -42,7 +42,7 @@ std::vector<Completed> all_options() {
                    .description = key.description,
                    .has_value = true,
                    .choices = key.choices,
-                   .is_file = names_file(key),
+                   .is_file = key.is_file,
                    .is_folder = false});
   }
   return all;

@@ -84,6 +84,10 @@ TEST_F(BadInput, OfSingleValues) {
                  "a length above 0");
   expect_refused("evaluate", {"--telescope.wavelength", "532parsec"},
                  "telescope.wavelength = 532parsec", "in nm, um, mm, cm, m or km");
+  expect_refused("evaluate", {"--telescope.wavelength", "850"}, "telescope.wavelength = 850",
+                 "a length above 0 and at most 0.001 m in nm, um, mm, cm, m or km, such as 532nm");
+  expect_refused("evaluate", {"--telescope.diameter", "8200"}, "telescope.diameter = 8200",
+                 "a length above 0 and at most 1000 m");
   expect_refused("evaluate", {"--screens.count", "0"}, "screens.count = 0", "from 1 to");
   expect_refused("evaluate", {"--screens.count", "2.5"}, "screens.count = 2.5", "a whole number");
   expect_refused("evaluate", {"--seeing.d_over_r0", "nan"}, "seeing.d_over_r0 = nan", "a number");

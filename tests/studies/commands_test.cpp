@@ -3,12 +3,20 @@
 #include "studies/command_line.hpp"
 #include "tests/studies/program.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include <gmock/gmock.h>
 
 namespace nlcwfs {
 namespace {
+
+using testing::IsEmpty;
+
+using Names = std::set<std::string, std::less<>>;
 
 class CommandTable : public Program {
  protected:
@@ -17,7 +25,73 @@ class CommandTable : public Program {
     for (const std::string& word : words) arguments.push_back(word.c_str());
     return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
   }
+
+  /// Runs a command on the tiny configuration and adds the keys that it asks for.
+  static void note_reads(const std::string& name, const Arguments& more, Names& reads) {
+    static int runs = 0;
+    Arguments words{name, "--config", "tiny.cfg", "--output", fmt::format("run-{}", ++runs)};
+    words.insert(words.end(), more.begin(), more.end());
+    CommandLine command_line = parsed(words);
+    command_line.silent = true;
+    command_line.log_level = LogLevel::error;
+    command_line.configuration.note_reads_in(reads);
+    testing::internal::CaptureStdout();
+    command_of(name).run(command_line);
+    testing::internal::GetCapturedStdout();
+  }
+
+  static Names listed(const Command& command) {
+    Names keys;
+    for (const ConfigurationKey& key : configuration_keys()) {
+      if (command.reads(key.name)) keys.insert(key.name);
+    }
+    return keys;
+  }
 };
+
+Names difference(const Names& a, const Names& b) {
+  Names only_a;
+  std::ranges::set_difference(a, b, std::inserter(only_a, only_a.end()));
+  return only_a;
+}
+
+TEST_F(CommandTable, ReadTheKeysThatTheirHelpLists) {
+  // What decides on other keys, beside the tiny configuration's own.
+  const std::map<std::string, std::vector<Arguments>> variants{
+      {"evaluate", {{}, {"--seeing.fwhm", "1"}, {"--source.bands", "500nm:600nm"}}},
+      {"convergence", {{}, {"--seeing.fwhm", "1"}, {"--source.bands", "500nm:600nm"}}},
+      {"response", {{}, {"--seeing.fwhm", "1"}, {"--source.bands", "500nm:600nm"}}},
+      {"screens", {{}, {"--seeing.fwhm", "1"}}},
+      {"scale", {{"--scale.diameter", "1m"}, {"--scale.diameter", "1m", "--seeing.fwhm", "1"}}},
+      {"sweep",
+       {{},
+        {"--seeing.fwhm", "1"},
+        {"--source.bands", "500nm:600nm"},
+        {"--sweep.layout", "free", "--sweep.z1", "-50km,-40km"}}},
+      {"optimize",
+       {{},
+        {"--seeing.fwhm", "1"},
+        {"--source.bands", "500nm:600nm"},
+        {"--search.cheap_budget", "6"},
+        {"--search.layout", "free"}}},
+      {"trade",
+       {{"--trade.budget", "16", "--trade.population", "8"},
+        {"--seeing.fwhm", "1", "--trade.budget", "16", "--trade.population", "8", "--source.bands",
+         "500nm:600nm"},
+        {"--search.layout", "free", "--trade.budget", "16", "--trade.population", "8"}}},
+      {"advise",
+       {{"--verify"},
+        {"--verify", "--seeing.fwhm", "1"},
+        {"--verify", "--source.bands", "500nm:600nm"}}},
+      {"benchmark", {{}, {"--seeing.fwhm", "1"}, {"--source.bands", "500nm:600nm"}}}};
+  for (const auto& [name, runs] : variants) {
+    Names reads;
+    for (const Arguments& more : runs) note_reads(name, more, reads);
+    const Names keys = listed(command_of(name));
+    EXPECT_THAT(difference(reads, keys), IsEmpty()) << name << " reads what its help does not list";
+    EXPECT_THAT(difference(keys, reads), IsEmpty()) << name << " does not read what its help lists";
+  }
+}
 
 TEST_F(CommandTable, HaveExamplesThatTheCommandLineTakes) {
   std::filesystem::create_directories("results/optimize-1");
