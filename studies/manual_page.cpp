@@ -4,6 +4,7 @@
 #include "studies/configuration.hpp"
 #include "studies/help_text.hpp"
 #include "studies/program_options.hpp"
+#include "studies/text.hpp"
 #include "studies/version.hpp"
 
 #include <algorithm>
@@ -13,6 +14,9 @@
 
 namespace nlcwfs {
 namespace {
+
+/// Of a line, whose escapes make it longer.
+constexpr std::size_t columns = 64;
 
 /// Text that roff shows as it stands: its escape character, the minus sign that would become a
 /// hyphen, and the characters that make a request of a line that begins with them.
@@ -40,12 +44,14 @@ std::string escaped(std::string_view text) {
   return escaped;
 }
 
-/// A line for each sentence, as roff wants it, so that it decides on the space between them.
+/// Lines as roff wants them: each sentence begins one, so that it decides on the space before, and
+/// none is long.
 std::string sentences(std::string_view text) {
   std::string lines;
   while (true) {
     const auto end = text.find(". ");
-    lines += escaped(text.substr(0, end == std::string_view::npos ? end : end + 1)) + '\n';
+    const std::string_view sentence = text.substr(0, end == std::string_view::npos ? end : end + 1);
+    for (const std::string& line : wrapped(sentence, columns)) lines += escaped(line) + '\n';
     if (end == std::string_view::npos) return lines;
     text.remove_prefix(end + 2);
   }
@@ -61,7 +67,11 @@ std::string entry(std::string_view word, std::string_view values, std::string_vi
 }
 
 std::string example(std::string_view command_line) {
-  return fmt::format(".PP\n.nf\n    {}\n.fi\n", escaped(command_line));
+  std::string lines;
+  for (const std::string& line : wrapped(command_line, columns)) {
+    lines += (lines.empty() ? "    " : " \\e\n        ") + escaped(line);
+  }
+  return fmt::format(".PP\n.nf\n{}\n.fi\n", lines);
 }
 
 std::string commands_text() {
