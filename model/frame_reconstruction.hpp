@@ -20,16 +20,16 @@ struct PlaneConsistency {
   /// By how many pixels the measured image stands off the predicted one (x, y): the shift that
   /// explains their difference best, by least squares to first order.
   Eigen::Array2d displacement = Eigen::Array2d::Zero();
-  int measured_pixels = 0;
+  int measured_pixels = 0;  ///< pixels that are not bad
 };
 
 /// A wavefront from measured frames.
 struct FrameReconstruction {
-  Reconstruction reconstruction;
+  Reconstruction reconstruction;         ///< of the last pass
   std::vector<Image<double>> measured;   ///< the frames in units of the unaberrated pupil's
                                          ///< intensity, as the loop saw them
   std::vector<Image<double>> predicted;  ///< the images of the reconstructed pupil, same units
-  std::vector<PlaneConsistency> planes;
+  std::vector<PlaneConsistency> planes;  ///< in visiting order
   int passes = 0;  ///< reconstructions until the light of the planes had settled
 };
 

@@ -82,6 +82,7 @@ std::string data_block(std::string_view name, const std::string& rows);
 /// @return why there is no picture (gnuplot is not installed, or fails); nothing where there is one
 std::optional<std::string> draw(const std::string& script, const GnuplotFigure& figure,
                                 const std::filesystem::path& stem);
+/// The same of several panels in one picture.
 std::optional<std::string> draw(const GnuplotPanels& figure, const std::filesystem::path& stem);
 
 }  // namespace nlcwfs

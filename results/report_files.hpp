@@ -8,7 +8,7 @@ namespace nlcwfs {
 /// A file of the folder results/report, as the program was built with it.
 struct ReportFile {
   std::string_view name;  ///< below results/report: "page.html", "plotly/LICENSE"
-  std::string_view text;
+  std::string_view text;  ///< the whole file
 };
 
 /// All that a page is made of; scripts in the order in which they run.

@@ -114,7 +114,7 @@ const std::vector<Command>& commands() {
        .keys = joined({site, simulation, judgement, search}),
        .examples =
            {"nlcwfs optimize --telescope.diameter 1.8 --telescope.wavelength 850nm "
-            "--seeing.fried_parameter 24cm",
+            "--seeing.fwhm 0.9",
             "nlcwfs optimize --search.layout free --search.plane_count 3,4 --detector.photons "
             "1e5"},
        .run = run_optimize},

@@ -35,9 +35,9 @@ void print_ignored_keys(const nlcwfs::CommandLine& command_line) {
       ignored.push_back(key.name);
     }
   }
-  if (ignored.empty() || command_line.log_level == nlcwfs::LogLevel::error) return;
-  fmt::print(stderr, "nlcwfs: note: {0} does not use {1}; nlcwfs {0} --help lists what it uses\n",
-             command.name, fmt::join(ignored, ", "));
+  if (ignored.empty()) return;
+  fmt::print("note: {0} does not use {1}; nlcwfs {0} --help lists what it uses\n", command.name,
+             fmt::join(ignored, ", "));
 }
 
 void run(int argc, const char* const* argv) {

@@ -57,6 +57,7 @@ const std::vector<PageFiles>& page_files() {
       {.command = "compare", .pictures = {"path.svg"}},
       {.command = "convergence", .tables = {"convergence.csv", "screens.csv"}},
       {.command = "evaluate", .tables = {"screens.csv", "loops.csv"}, .images = closer_look},
+      {.command = "export"},
       {.command = "law", .tables = {"law.csv"}},
       {.command = "optimize",
        .design_file = "best.cfg",

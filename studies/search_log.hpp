@@ -39,6 +39,7 @@ class SearchLog {
   int given_up() const { return given_up_; }
   /// The designs in the order in which they were tried.
   std::string table() const { return table_.text(); }
+  /// The same, as they are drawn.
   const std::vector<SearchStep>& steps() const { return steps_; }
 
  private:

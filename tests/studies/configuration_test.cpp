@@ -130,10 +130,10 @@ TEST(Configuration, ReturnsWhatWasSetAndWhoSetIt) {
 }
 
 TEST(Configuration, SaysWhatIsAllowedInOneLine) {
-  EXPECT_EQ(
-      set_message("telescope.diameter", "-1"),
-      "telescope.diameter = -1: a length above 0 in nm, um, mm, cm, m or km, such as 0.5m (on "
-      "the command line)");
+  EXPECT_EQ(set_message("telescope.diameter", "-1"),
+            "telescope.diameter = -1: a length above 0 and at most 1000 m in nm, um, mm, cm, m or "
+            "km, such as 0.5m (on "
+            "the command line)");
   EXPECT_EQ(set_message("reconstruction.stopping", "never"),
             "reconstruction.stopping = never: one of difference, rms_change (on the command line)");
   EXPECT_EQ(
@@ -345,8 +345,11 @@ TEST(Configuration, ADumpDocumentsEveryKey) {
     EXPECT_THAT(dump, HasSubstr("\n[" + key.name.substr(0, key.name.find('.')) + "]\n"));
     EXPECT_THAT(dump, HasSubstr(key.name.substr(key.name.find('.') + 1) + " ="));
   }
-  EXPECT_THAT(dump, HasSubstr("# Unit: m. Allowed: a length above 0 in nm, um, mm, cm, m or km, "
-                              "such as 532nm. Default: 532nm.\nwavelength = 532nm\n"));
+  EXPECT_THAT(
+      dump,
+      HasSubstr(
+          "# Unit: m. Allowed: a length above 0 and at most 0.001 m in nm, um, mm, cm, m or km, "
+          "such as 532nm. Default: 532nm.\nwavelength = 532nm\n"));
 }
 
 }  // namespace

@@ -145,7 +145,8 @@ TEST_F(Reconstruct, WritesItsFiles) {
     const double rms = std::sqrt((image - predicted.slices[row]).square().sum() /
                                  predicted.slices[row].square().sum());
     EXPECT_NEAR(std::stod(of["relative_rms"]), rms, 1e-9);
-    EXPECT_NEAR(std::stod(of["noise_relative_rms"]) / rms, 0.8, 0.3);
+    // The reconstructed field follows the noise too.
+    EXPECT_NEAR(rms / std::stod(of["noise_relative_rms"]), 1.05, 0.4);
     // Calibrated: its light is that of a pupil of intensity 1, its background is gone.
     EXPECT_NEAR(image.sum() / 804.0, std::stod(of["captured_energy"]), 0.02);
   }
@@ -176,8 +177,7 @@ TEST_F(Reconstruct, IsRepeatedByItsConfigurationOnAnyNumberOfThreads) {
 TEST_F(Reconstruct, MakesWavefrontsForTheOtherCommands) {
   reconstruct("run");
   const Arguments screens{"--screens.file", "run/phase.fits"};
-  const ProgramRun evaluated = done("evaluate", "evaluated", screens);
-  EXPECT_THAT(evaluated.output, HasSubstr("32 x 32 samples"));
+  done("evaluate", "evaluated", screens);
   EXPECT_EQ(summary("evaluated")["design"]["performance"]["screens"], 2);
   done("optimize", "optimized", screens);
   // What is resampled at the pupil's edge comes from within: twice as fine, the wavefronts are as
@@ -188,10 +188,10 @@ TEST_F(Reconstruct, MakesWavefrontsForTheOtherCommands) {
   const FitsCube coarse = read_fits_cube("run/phase.fits", "screens.file", FitsGaps::allowed);
   const FitsCube fine = read_fits_cube("finer/screens.fits", "screens.file");
   for (int set : {0, 1}) {
-    EXPECT_NEAR(
-        piston_free_rms(fine.slices[set], pupil_mask(64, 0.0)),
-        piston_free_rms(pupil_mask(32, 0.0).select(coarse.slices[set], 0.0), pupil_mask(32, 0.0)),
-        0.02);
+    const PupilMask mask = pupil_mask(32, 0.0);
+    EXPECT_NEAR(piston_free_rms(fine.slices[set], pupil_mask(64, 0.0)) /
+                    piston_free_rms(mask.select(coarse.slices[set], 0.0), mask),
+                1.0, 0.01);
   }
 }
 

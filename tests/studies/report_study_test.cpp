@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include <gmock/gmock.h>
 
@@ -118,13 +119,14 @@ TEST_F(Report, RefusesWhatIsNoRunInOneLine) {
   EXPECT_THAT(refusal("run"), HasSubstr("of the command"));
   const ProgramRun bare = run({"report"});
   EXPECT_EQ(bare.exit_code, 2);
-  EXPECT_THAT(bare.errors, HasSubstr("one folder must follow report: nlcwfs report DIR"));
+  EXPECT_THAT(bare.errors, HasSubstr("DIR must follow report: nlcwfs report DIR"));
 }
 
 TEST_F(Report, AnEmptySummaryIsStillAPage) {
   std::filesystem::create_directories("run");
   for (const Command& command : commands()) {
-    if (command.name == "report") continue;  // makes no folder
+    const std::set<std::string> without_folder{"report", "manual", "completion"};
+    if (without_folder.contains(command.name)) continue;
     std::ofstream("run/summary.json") << Json{{"command", command.name}};
     const ProgramRun finished = run({"report", "run"});
     EXPECT_EQ(finished.exit_code, 0) << command.name << finished.errors;
