@@ -21,6 +21,20 @@ const Keys judgement{"objective"};
 /// What a search takes besides.
 const Keys search{"search", "baseline", "verify"};
 
+/// Lengths of other sections that scale with a design.
+const Keys moved_lengths{"baseline.planes",    "objective.wfe_scale",
+                         "response.distances", "search.tolerance",
+                         "search.z1",          "search.z2",
+                         "search.z3",          "search.z4",
+                         "search.z5",          "search.z6",
+                         "search.z_far",       "search.z_near",
+                         "search.z_third",     "sweep.tolerance",
+                         "sweep.z1",           "sweep.z2",
+                         "sweep.z3",           "sweep.z4",
+                         "sweep.z5",           "sweep.z6",
+                         "sweep.z_far",        "sweep.z_near",
+                         "sweep.z_third"};
+
 Keys joined(std::initializer_list<Keys> lists) {
   Keys all;
   for (const Keys& list : lists) all.insert(all.end(), list.begin(), list.end());
@@ -69,7 +83,7 @@ const std::vector<Command>& commands() {
                 "measures the recovered share; with response.distances also that of pairs of "
                 "planes at these distances, as maps. Beside it stand the contrast and the photon "
                 "noise that theory lets expect.",
-       .keys = joined({site, simulation, judgement, {"response"}}),
+       .keys = joined({site, simulation, {"response"}}),
        .examples = {"nlcwfs response --response.distances 1km:200km:20:log --detector.photons 1e7"},
        .run = run_response},
       {.name = "reconstruct",
@@ -90,7 +104,7 @@ const std::vector<Command>& commands() {
        .about =
            "Writes the wavefronts that the other commands use as screens.fits, and holds their "
            "variances and structure function against theory.",
-       .keys = joined({site, {"source", "screens", "detector", "simulation"}}),
+       .keys = joined({site, {"screens", "simulation.truth", "simulation.pupil_samples"}}),
        .examples = {"nlcwfs screens --screens.count 100 --seeing.outer_scale 25"},
        .run = run_screens},
       {.name = "sweep",
@@ -154,7 +168,11 @@ const std::vector<Command>& commands() {
        .about =
            "Gives the planes of a telescope at once, with the error and the loops that the law "
            "predicts; with --verify they are simulated on fresh screens too.",
-       .keys = joined({site, simulation, judgement, {"advise", "verify"}}),
+       .keys =
+           joined({site,
+                   {"source", "screens.seed", "sensor", "detector", "reconstruction", "simulation"},
+                   judgement,
+                   {"advise", "verify.screens", "verify.seed", "verify.truth_factor"}}),
        .examples = {"nlcwfs advise --telescope.diameter 8.2 --seeing.fried_parameter 1m --verify"},
        .run = run_advise},
       {.name = "scale",
@@ -162,7 +180,9 @@ const std::vector<Command>& commands() {
        .description = "move a design to another telescope or bench at equal Fresnel numbers",
        .about = "Moves the configured planes to the telescope of the section scale, where they see "
                 "the same diffraction, and writes the moved design as scaled.cfg.",
-       .keys = joined({site, {"sensor", "source", "detector", "reconstruction", "scale"}}),
+       .keys = joined({site,
+                       {"sensor", "source.bands", "detector", "reconstruction", "scale"},
+                       moved_lengths}),
        .examples = {"nlcwfs scale --config results/optimize-1/best.cfg --scale.diameter 8.2 "
                     "--scale.relay_beam_diameter 10mm"},
        .run = run_scale},
@@ -205,7 +225,7 @@ const std::vector<Command>& commands() {
        .description = "time a configuration on this machine; writes files only with --output",
        .about = "Takes about five seconds and says what loops, designs and a whole search of the "
                 "configuration cost on this machine.",
-       .keys = joined({site, simulation, judgement, search}),
+       .keys = joined({site, simulation, {"search.budget", "search.time_limit"}}),
        .examples = {"nlcwfs benchmark --detector.pupil_pixels 128 --threads 8"},
        .run = run_benchmark},
       {.name = "manual",
