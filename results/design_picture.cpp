@@ -33,6 +33,12 @@ std::vector<int> lanes_of(const std::vector<double>& places, double width) {
   return lanes;
 }
 
+/// To 4 digits or to the kilometre, without an exponent.
+std::string km_text(double distance) {
+  return std::abs(distance) < 1e3 ? fmt::format("{:.4g}", distance)
+                                  : fmt::format("{:.0f}", distance);
+}
+
 }  // namespace
 
 std::optional<std::string> write_design_picture(const std::string& title,
@@ -73,8 +79,8 @@ std::optional<std::string> write_design_picture(const std::string& title,
     const double foot = 1.22 * window + lanes[plane] * lane_height;
     planes += fmt::format("{0} {1}\n{0} {2}\n\n", places[plane], -window, window);
     labels +=
-        fmt::format("{} {} {} {} \"{:.4g} km\" {} {}\n", places[plane], window,
-                    foot + 0.13 * window, plane + 1, places[plane], foot, foot - 0.06 * window);
+        fmt::format("{} {} {} {} \"{} km\" {} {}\n", places[plane], window, foot + 0.13 * window,
+                    plane + 1, km_text(places[plane]), foot, foot - 0.06 * window);
   }
   const double top = 1.2 * window + (std::ranges::max(lanes) + 1) * lane_height;
 
@@ -97,10 +103,12 @@ std::optional<std::string> write_design_picture(const std::string& title,
           "set ylabel 'across the beam, m'\nset xtics out nomirror\nset ytics out nomirror\n",
           first, last, -1.1 * window, top);
   if (telescope.relay_beam_diameter) {
-    constexpr double mm = 1e-3;
-    const double bench_mm_per_km = bench_distance(km, telescope) / mm;
-    script += fmt::format("set x2range [{}:{}]\nset x2tics out\nset x2label 'on the bench, mm'\n",
-                          first * bench_mm_per_km, last * bench_mm_per_km);
+    const double first_m = bench_distance(first * km, telescope);
+    const double last_m = bench_distance(last * km, telescope);
+    const bool is_long = std::max(-first_m, last_m) >= 1.0;
+    const double unit = is_long ? 1.0 : 1e-3;
+    script += fmt::format("set x2range [{}:{}]\nset x2tics out\nset x2label 'on the bench, {}'\n",
+                          first_m / unit, last_m / unit, is_long ? "m" : "mm");
   }
   std::vector<std::string> plots{
       "$beam using 1:2:3 with filledcurves linecolor rgb '#e6f0f7' "

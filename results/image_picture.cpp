@@ -37,7 +37,7 @@ GnuplotPanel panel_of(const ImagePicture& picture, const ImagePanel& panel, cons
       "set title {} offset 0,-0.5\n"
       "set size ratio -1\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel {}\n"
       "set ylabel {} offset 1,0\nset xtics out nomirror\nset ytics out nomirror\n"
-      "set cblabel {}\nset format cb '%g'\nset cbrange [{}:{}]\n{}",
+      "set cblabel {} offset 1,0\nset format cb '%g'\nset cbrange [{}:{}]\n{}",
       gnuplot_text(panel.title), -half_width, half_width, -half_width, half_width,
       gnuplot_text("x, " + picture.axis_unit), gnuplot_text("y, " + picture.axis_unit),
       gnuplot_text(panel.value_label), least, greatest,

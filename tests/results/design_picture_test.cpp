@@ -62,7 +62,15 @@ TEST_F(DesignPicture, ShowsPlanesOfOneSideAndThoseThatAreVisitedTwice) {
 
 TEST_F(DesignPicture, BehindARelayItHasTheBenchsDistancesToo) {
   EXPECT_THAT(drawn(SensorDesign{}, {.central_obscuration = 0.3, .relay_beam_diameter = 10e-3}),
-              HasSubstr("on the bench, mm"));
+              HasSubstr(">on the bench, m<"));
+  // 180 km (1 mm / 0.5 m)^2 = 0.72 m.
+  EXPECT_THAT(drawn(SensorDesign{}, {.relay_beam_diameter = 1e-3}),
+              HasSubstr(">on the bench, mm<"));
+}
+
+TEST_F(DesignPicture, DistancesOfLargeTelescopesHaveNoExponent) {
+  EXPECT_THAT(drawn(design_of({-10893e3, 10893e3})),
+              AllOf(HasSubstr(">-10893 km<"), Not(HasSubstr("e+"))));
 }
 
 TEST_F(DesignPicture, TheWindowDecidesHowHighThePlanesAre) {
