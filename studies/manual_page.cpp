@@ -71,7 +71,7 @@ std::string example(std::string_view command_line) {
   for (const std::string& line : wrapped(command_line, columns)) {
     lines += (lines.empty() ? "    " : " \\e\n        ") + escaped(line);
   }
-  return fmt::format(".PP\n.nf\n{}\n.fi\n", lines);
+  return fmt::format(".nf\n{}\n.fi\n", lines);
 }
 
 std::string commands_text() {
@@ -121,11 +121,11 @@ std::string keys_text() {
 }
 
 std::string examples_text() {
-  std::string text = section("EXAMPLES");
+  std::vector<std::string> examples;
   for (const Command& command : commands()) {
-    for (const std::string& line : command.examples) text += example(line);
+    for (const std::string& line : command.examples) examples.push_back(example(line));
   }
-  return text;
+  return section("EXAMPLES") + fmt::format("{}", fmt::join(examples, ".PP\n"));
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ struct PageFiles {
   std::vector<std::string> tables = {};
   std::vector<std::string> images = {};
   std::vector<std::string> pictures = {};
+  bool shows_all_tables = false;  ///< also those that it does not always leave
 };
 
 const std::vector<PageFiles>& page_files() {
@@ -57,7 +58,7 @@ const std::vector<PageFiles>& page_files() {
       {.command = "compare", .pictures = {"path.svg"}},
       {.command = "convergence", .tables = {"convergence.csv", "screens.csv"}},
       {.command = "evaluate", .tables = {"screens.csv", "loops.csv"}, .images = closer_look},
-      {.command = "export"},
+      {.command = "export", .shows_all_tables = true},
       {.command = "law", .tables = {"law.csv"}},
       {.command = "optimize",
        .design_file = "best.cfg",
@@ -66,7 +67,7 @@ const std::vector<PageFiles>& page_files() {
       {.command = "reconstruct",
        .tables = {"consistency.csv"},
        .images = {"phase.fits", "frames.fits", "predicted.fits"}},
-      {.command = "reproduce", .tables = {"claims.csv"}},
+      {.command = "reproduce", .tables = {"claims.csv"}, .shows_all_tables = true},
       {.command = "response", .tables = {"response.csv"}},
       {.command = "scale", .design_file = "scaled.cfg"},
       {.command = "screens", .tables = {"structure_function.csv"}, .images = {"screens.fits"}},
@@ -286,7 +287,7 @@ Json Gathering::data() {
   attempt("the verdict cannot be told", [&] { data_["verdict"] = verdict_sentence(summary); });
   add_configuration();
   add_design_file(files.design_file);
-  add_tables(files.tables, files.command == "reproduce");
+  add_tables(files.tables, files.shows_all_tables);
   for (const std::string& name : files.images) add("images", name, images_of);
   for (const std::string& name : files.pictures) {
     add("pictures", name, [](const Path& path) { return Json(text_of(path).value_or("")); });

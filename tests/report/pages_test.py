@@ -57,7 +57,7 @@ budget = 8
 """
 
 # Commands that make no folder of their own.
-NO_FOLDER = {"report"}
+NO_FOLDER = {"completion", "manual", "report"}
 
 # Command, what follows it; in an order in which each finds the runs that it needs.
 RUNS = [
