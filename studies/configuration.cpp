@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <sstream>
 #include <system_error>
 
@@ -413,7 +414,10 @@ const std::string& Configuration::text(std::string_view key) const {
 }
 
 void Configuration::note_read(std::string_view key) const {
-  if (reads_ != nullptr) reads_->emplace(key);
+  if (reads_ == nullptr) return;
+  static std::mutex lock;
+  const std::scoped_lock held(lock);
+  reads_->emplace(key);
 }
 
 bool Configuration::is_set(std::string_view key) const {

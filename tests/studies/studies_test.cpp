@@ -83,6 +83,13 @@ void expect_same_performance(const Json& actual, const Json& expected, double to
   EXPECT_EQ(actual.at("converged_fraction"), expected.at("converged_fraction"));
 }
 
+/// Not those that need more than a configuration (a folder, frames), print no results, or take no
+/// other telescope or sweep than the paper's.
+bool runs_on_the_tiny_configuration(const Command& command) {
+  const std::set<std::string> others{"manual", "reconstruct", "reproduce"};
+  return command.arguments.empty() && !others.contains(command.name);
+}
+
 using Studies = Program;
 
 TEST_F(Studies, EvaluateLeavesItsFiles) {
@@ -414,8 +421,7 @@ TEST_F(Studies, TheConfigurationOfARunReproducesIt) {
                            "--scale.wavelength",
                            "850nm"};
   for (const Command& command : commands()) {
-    // reproduce takes no other telescope than the paper's.
-    if (!command.arguments.empty() || command.name == "reproduce") continue;
+    if (!runs_on_the_tiny_configuration(command)) continue;
     const std::string first = command.name + "-first";
     const std::string again = command.name + "-again";
     done(command.name, first, settings);
@@ -441,8 +447,7 @@ TEST_F(Studies, TheSeedDecidesTheResult) {
 
 TEST_F(Studies, TheNumberOfThreadsDoesNotMatter) {
   for (const Command& command : commands()) {
-    // reproduce takes no sweep, see its own tests.
-    if (!command.arguments.empty() || command.name == "reproduce") continue;
+    if (!runs_on_the_tiny_configuration(command)) continue;
     const Arguments more{"--screens.count",  "5",  "--detector.photons", "1e5",
                          "--scale.diameter", "2m", "--verify.screens",   "3"};
     for (const std::string threads : {"1", "2"}) {
