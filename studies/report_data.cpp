@@ -149,7 +149,7 @@ Json columns_of(const std::vector<CsvRow>& rows) {
 }
 
 Json images_of(const Path& path) {
-  const FitsCube cube = read_fits_cube(path, "DIR", FitsGaps::allowed);
+  const FitsCube cube = read_fits_cube(path, "DIR", FitsGaps::allowed, FitsShape::frames);
   Json json{{"unit", cube.unit},
             {"samples", cube.slices.front().rows()},
             {"count", cube.slices.size()},

@@ -146,6 +146,11 @@ std::string of_benchmark(const Json& summary) {
       timing.at("threads").get<int>());
 }
 
+std::string of_export(const Json& summary) {
+  return fmt::format("{} evaluations, {} of them failed.", summary.at("evaluations").get<int>(),
+                     summary.at("failed").get<int>());
+}
+
 std::string of_reconstruct(const Json& summary) {
   const Json& consistency = summary.at("consistency");
   return fmt::format(
@@ -175,13 +180,21 @@ std::string of_reproduce(const Json& summary) {
 
 std::string verdict_sentence(const Json& summary) {
   static const std::map<std::string, std::function<std::string(const Json&)>> sentences{
-      {"advise", of_advise},       {"benchmark", of_benchmark},
-      {"compare", of_compare},     {"convergence", of_convergence},
-      {"evaluate", of_evaluate},   {"law", of_law},
-      {"optimize", of_optimize},   {"reconstruct", of_reconstruct},
-      {"reproduce", of_reproduce}, {"response", of_response},
-      {"scale", of_scale},         {"screens", of_screens},
-      {"sweep", of_sweep},         {"trade", of_trade}};
+      {"advise", of_advise},
+      {"benchmark", of_benchmark},
+      {"compare", of_compare},
+      {"convergence", of_convergence},
+      {"evaluate", of_evaluate},
+      {"export", of_export},
+      {"law", of_law},
+      {"optimize", of_optimize},
+      {"reconstruct", of_reconstruct},
+      {"reproduce", of_reproduce},
+      {"response", of_response},
+      {"scale", of_scale},
+      {"screens", of_screens},
+      {"sweep", of_sweep},
+      {"trade", of_trade}};
   const auto sentence = sentences.find(summary.at("command").get<std::string>());
   return sentence == sentences.end() ? "" : sentence->second(summary);
 }

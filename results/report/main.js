@@ -27,6 +27,7 @@ const titles = {
   compare: "Sweep against search",
   convergence: "From loop to loop",
   evaluate: "Performance of a design",
+  export: "Evaluations of a run",
   law: "Scaling law",
   optimize: "Best design",
   reconstruct: "Reconstructed wavefront",
@@ -72,7 +73,7 @@ function withoutComments(text) {
 
 const pages = {
   advise: showAdvice, benchmark: showBenchmark, compare: showComparison,
-  convergence: showConvergence, evaluate: showEvaluation, law: showLaw, optimize: showOptimization,
+  convergence: showConvergence, evaluate: showEvaluation, export: showExport, law: showLaw, optimize: showOptimization,
   reconstruct: showReconstruction, reproduce: showReproduction, response: showResponse,
   scale: showScaling, screens: showScreens, sweep: showSweep, trade: showTrade,
 };

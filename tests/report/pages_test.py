@@ -77,6 +77,10 @@ RUNS = [
     ("reproduce", ["--figure", "scaling"]),
 ]
 
+# Commands that take the folders of other runs.
+FROM_RUNS = [("compare", ["sweep", "optimize"]), ("export", ["optimize"])]
+ALL = [command for command, _ in RUNS + FROM_RUNS]
+
 
 def run_program(*arguments):
     done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
@@ -89,7 +93,8 @@ def make_runs():
         file.write(TINY)
     for command, more in RUNS:
         run_program(command, "--config", "tiny.cfg", "--quiet", "--output", command, *more)
-    run_program("compare", "sweep", "optimize", "--quiet", "--output", "compare")
+    for command, runs in FROM_RUNS:
+        run_program(command, *runs, "--quiet", "--output", command)
 
 
 def start_browser():
@@ -190,10 +195,10 @@ class PagesTest(unittest.TestCase):
         listed = described.stdout.split("\nOptions:")[0]
         commands = set(re.findall(r"^  ([a-z]+)  ", listed, re.MULTILINE))
         self.assertIn("evaluate", commands)
-        self.assertEqual(commands - NO_FOLDER, {command for command, _ in RUNS} | {"compare"})
+        self.assertEqual(commands - NO_FOLDER, set(ALL))
 
     def test_pages_show_what_they_have(self):
-        for command in [command for command, _ in RUNS] + ["compare"]:
+        for command in ALL:
             with self.subTest(command):
                 url = self.open(command)
                 light = self.screenshot()
