@@ -62,6 +62,8 @@ NO_FOLDER = {"completion", "manual", "report"}
 # Command, what follows it; in an order in which each finds the runs that it needs.
 RUNS = [
     ("evaluate", ["--detector.photons", "1e6"]),
+    ("reconstruct", ["--detector.photons", "1e6", "--frames", "evaluate/typical-images.fits",
+                     "--sensor.planes=-180km,180km,-47km,47km"]),
     ("convergence", []),
     ("response", ["--response.frequencies", "2,4,6", "--response.distances", "20km,50km,120km",
                   "--detector.photons", "1e6"]),
