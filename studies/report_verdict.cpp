@@ -17,8 +17,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// With its standard error, where it has one: one screen alone has none.
 std::string figure(const Json& object, const char* name) {
-  return with_error(mean_from_json(object.at(name)));
+  const MeanAndError value = mean_from_json(object.at(name));
+  return value.standard_error == 0.0 ? fmt::format("{:.4g}", value.mean) : with_error(value);
 }
 
 /// "residual WFE 2.64 +- 0.01 nm after 8.1 +- 0.2 loops on 64 fresh screens"

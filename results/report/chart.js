@@ -52,7 +52,8 @@ function draw(chart) {
   const styled = layoutOf(chart, layout, theme);
   if (isPrinting) {
     const columns = chart.node.closest(".small") ? 3 : chart.node.closest(".side-by-side") ? 2 : 1;
-    Object.assign(styled, {autosize: false, width: printedWidth / columns - 20});
+    Object.assign(styled, {autosize: false, width: printedWidth / columns - 20,
+      height: columns === 3 ? 260 : styled.height});
   }
   Plotly.react(chart.node, data, styled, {
     displaylogo: false, displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false,

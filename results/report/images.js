@@ -56,9 +56,9 @@ function showImages(part, images, width, title) {
   });
 }
 
-/** What intensities are counted in, as a title says it. */
+/** What intensities are counted in: where they have no unit, in the unaberrated pupil's. */
 function intensityTitle(images) {
-  return images.unit === "1" || images.unit === "" ? "intensity over the unaberrated pupil's"
+  return images.unit === "1" || images.unit === "" ? "relative intensity"
     : `intensity, ${images.unit}`;
 }
 
@@ -102,7 +102,7 @@ function showCloserLook(design) {
       }
       if (images) {
         part.append(element("p", {}, `Detector images in the order in which they are visited, with
-          their noise. The brightest 0.5 % have the last colour.${binnedNote(images)}`));
+          their noise, relative to the unaberrated pupil's intensity. The brightest 0.5 % have the last colour.${binnedNote(images)}`));
         showImages(part, images, design.detector_window * (data.diameter_m ?? 1),
           (i) => `Plane ${i + 1}, ${length(design.planes_m[i])}`);
       }

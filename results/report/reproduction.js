@@ -48,9 +48,6 @@ function showClaims(part, claims) {
       kept.map((i) => [String(claims.figure[i]),
         element("div", {}, claims.claim[i], element("div", {className: "faint"}, claims.papers_number[i])),
         ...setups.map((setup) => verdict(setup, i)), claims.rule[i]])));
-    for (const cell of place.querySelectorAll("td:not(.number)")) {
-      if (cell.firstElementChild || cell.textContent.length > 20) cell.classList.add("wide");
-    }
   };
   const set = (key) => (value) => {
     chosen[key] = value;

@@ -313,7 +313,7 @@ function showReconstruction(summary) {
   if (phase) {
     section("Phase", (part) => {
       part.append(element("p", {}, `Without piston, at the telescope's wavelength;
-        ${phase.slices.length} of ${phase.count} sets of frames.${binnedNote(phase)}`));
+        ${phase.count === 1 ? "one set of frames" : `${phase.slices.length} of ${phase.count} sets of frames`}.${binnedNote(phase)}`));
       const grid = element("div", {className: "side-by-side small"});
       part.append(grid);
       phase.slices.forEach((image, i) => {
@@ -348,7 +348,8 @@ function showReconstruction(summary) {
 /** Measured, predicted and their difference in each plane of the first set of frames. */
 function showPredictions(part, design, frames, predicted) {
   part.append(element("p", {}, `The first set: the frames as the reconstruction got them (bad pixels
-    are left out), what the phase that it found makes of each, and the difference.${binnedNote(frames)}`));
+    are left out), what the phase that it found makes of each, and the difference, relative to the intensity of
+    the unaberrated pupil.${binnedNote(frames)}`));
   design.planes_m.slice(0, frames.slices.length).forEach((plane, i) => {
     part.append(element("h3", {}, `Plane ${i + 1}, ${length(plane)}`));
     const grid = element("div", {className: "side-by-side small"});

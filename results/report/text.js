@@ -100,8 +100,9 @@ function table(heads, rows, caption = "") {
   const isNumber = (column) => rows.length > 0 && rows.every((row) =>
     typeof row[column] === "number" || /^[−+\d–][\d.e−+ ±%]*$/.test(row[column] ?? "–"));
   const kinds = heads.map((_, column) => (isNumber(column) ? "number" : ""));
-  const kindOf = (content, column) => kinds[column] ||
-    (typeof content === "string" && content.length < 20 ? "short" : "");
+  const widthOf = (content) => (content instanceof Node ? "wide" : typeof content !== "string" ? ""
+    : content.length < 20 ? "short" : content.length > 40 ? "wide" : "");
+  const kindOf = (content, column) => kinds[column] || widthOf(content);
   const cell = (content, column) => element("td", {className: kindOf(content, column)},
     typeof content === "number" ? digits(content, 6) : content ?? "–");
   return element("div", {className: "scroll", tabIndex: 0, role: "region",
