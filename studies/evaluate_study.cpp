@@ -50,8 +50,8 @@ void run_evaluate(const CommandLine& command_line) {
   for (const std::string& note : notes) record.print("note: {}\n", note);
   record.print("{}\n\n", telescope_line(telescope, seeing));
   record.print("{}\n", planes_table(design, telescope, seeing, &performance));
-  record.print("On {} screens, {} truth:\n{}", performance.screens.size(),
-               configuration.choice("simulation.truth"),
+  record.print("On {} screen{}, {} truth:\n{}", performance.screens.size(),
+               performance.screens.size() == 1 ? "" : "s", configuration.choice("simulation.truth"),
                performance_table({{"mean +- standard error", &performance, tried.costs}}));
   if (performance.screens.size() == 1) {
     record.print("note: one screen has no standard error; screens.count = 16 or more has\n");

@@ -104,8 +104,8 @@ void run_screens(const CommandLine& command_line) {
                         {"kolmogorov_tilt_removed_variance_rad2", expected_tilt_removed}});
 
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n\n{} screens of {} x {} samples in screens.fits, rad\n",
-             telescope_line(telescope, seeing), count, samples, samples);
+  fmt::print("{}\n\n{} screen{} of {} x {} samples in screens.fits, rad\n",
+             telescope_line(telescope, seeing), count, count == 1 ? "" : "s", samples, samples);
   fmt::print("  {:<34} {:>20} {:>28}\n", "variance over the pupil, rad^2", "these screens",
              "Kolmogorov, clear, no L0");
   fmt::print("  {:<34} {:>20} {:>28.4g}\n", "piston removed", with_error(variance), expected);

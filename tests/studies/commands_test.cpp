@@ -20,7 +20,7 @@ using Names = std::set<std::string, std::less<>>;
 
 class CommandTable : public Program {
  protected:
-  static CommandLine parsed(std::vector<std::string> words) {
+  static CommandLine parsed(const std::vector<std::string>& words) {
     std::vector<const char*> arguments{"nlcwfs"};
     for (const std::string& word : words) arguments.push_back(word.c_str());
     return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
