@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <type_traits>
+#include <utility>
 
 namespace nlcwfs {
 namespace {
@@ -43,9 +44,9 @@ Eigen::Array2d centroid_slope(std::span<const Image<double>> images,
 
 template <class Real>
 GerchbergSaxton<Real>::GerchbergSaxton(const Telescope& telescope, const SensorDesign& design,
-                                       const std::vector<Eigen::Array2d>& axes)
+                                       std::vector<Eigen::Array2d> axes)
     : design_(design),
-      axes_(axes),
+      axes_(std::move(axes)),
       wavelength_(telescope.wavelength),
       pitch_(telescope.diameter / design.pupil_samples()),
       mask_(pupil_mask(design.pupil_samples(), telescope.central_obscuration)),
@@ -89,13 +90,7 @@ Reconstruction GerchbergSaxton<Real>::reconstruct(
   for (std::size_t plane = 0; plane < images.size(); ++plane) {
     assert(images[plane].rows() == design_.detector.width());
     assert(images[plane].cols() == design_.detector.width());
-    if (images[plane].hasNaN()) {
-      for (Eigen::Index row = 0; row < images[plane].rows(); ++row) {
-        for (Eigen::Index column = 0; column < images[plane].cols(); ++column) {
-          if (std::isnan(images[plane](row, column))) gaps[plane].push_back({row, column});
-        }
-      }
-    }
+    gaps[plane] = gaps_of(images[plane]);
     if constexpr (std::is_same_v<Real, double>) {
       measured[plane] = &images[plane];
     } else {
@@ -206,6 +201,18 @@ Field<double> GerchbergSaxton<Real>::get_pupil(const Field<Real>& field) const {
     pupil.row(row) = line.segment(rows.first, rows.size()).template cast<std::complex<double>>();
   }
   return mask_.select(pupil / double(propagator_.samples()), std::complex<double>(0.0));
+}
+
+template <class Real>
+auto GerchbergSaxton<Real>::gaps_of(const Image<double>& image) -> std::vector<Gap> {
+  std::vector<Gap> gaps;
+  if (!image.hasNaN()) return gaps;
+  for (Eigen::Index row = 0; row < image.rows(); ++row) {
+    for (Eigen::Index column = 0; column < image.cols(); ++column) {
+      if (std::isnan(image(row, column))) gaps.push_back({row, column});
+    }
+  }
+  return gaps;
 }
 
 template <class Real>

@@ -43,7 +43,7 @@ class GerchbergSaxton {
   /// @param axes  where the optical axis meets each detector: x, y from the middle of its window in
   ///              detector pixels; empty = all in the middle
   GerchbergSaxton(const Telescope& telescope, const SensorDesign& design,
-                  const std::vector<Eigen::Array2d>& axes = {});
+                  std::vector<Eigen::Array2d> axes = {});
 
   /// May be called from many threads.
   /// @param images  one per plane in visiting order, detector width x width, mean intensity per
@@ -76,6 +76,8 @@ class GerchbergSaxton {
     Eigen::Index row;
     Eigen::Index column;
   };
+  /// Row by row; none where every pixel was measured.
+  static std::vector<Gap> gaps_of(const Image<double>& image);
   /// The amplitude step at one plane, on a field whose rows are Fourier transforms.
   /// @param gaps  the image's pixels without a value, row by row
   void measure(Field<Real>& field, const Image<Real>& image, std::span<const Gap> gaps,

@@ -31,11 +31,11 @@ struct FitsKeyword {
 /// 2002, A&A 395, 1061).
 struct FitsAxis {
   std::string name;              ///< CTYPE, such as "X"
-  std::string unit = "";         ///< CUNIT; empty for what has none
+  std::string unit = {};         ///< CUNIT; empty for what has none
   double reference_pixel = 1.0;  ///< CRPIX; FITS counts the first pixel's centre as 1
   double reference_value = 0.0;  ///< CRVAL: the coordinate there, in the unit
   double step = 1.0;             ///< CDELT: from one pixel to the next, in the unit
-  std::string description = "";  ///< for people
+  std::string description = {};  ///< for people
 };
 
 /// An axis across the pupil or a detector: m from its middle.
@@ -61,7 +61,7 @@ enum class FitsShape {
 /// @throws InputError where the file is missing or unreadable, or its image has another shape or
 ///         values that are not finite
 FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
-                        FitsGaps gaps = FitsGaps::refused, FitsShape shape = FitsShape::square);
+                        FitsGaps gaps = FitsGaps::refused, FitsShape allowed = FitsShape::square);
 
 /// Writes 64-bit floating-point values with BUNIT and `keywords` in the header, on three axes or,
 /// where there are several sets, four. Until it is
@@ -79,7 +79,7 @@ struct FitsMapAxis {
   std::string unit;                     ///< CUNIT; empty for what has none
   std::vector<double> values;           ///< of each pixel, in the unit; of words their numbers
   std::vector<std::string> words = {};  ///< one for each pixel, where these are no quantities
-  std::string description = "";         ///< for people
+  std::string description = {};         ///< for people
 };
 
 /// A quantity over two others.

@@ -209,9 +209,8 @@ std::string consistency_table(const FrameRun& run) {
 
 /// "Set 1 of 3: 0.5 m telescope at 532 nm"; the first set stands for all.
 std::string title_of(const FrameRun& run) {
-  const std::string telescope =
-      fmt::format("{} telescope at {}", format_length(run.telescope.diameter),
-                  format_length(run.telescope.wavelength));
+  const std::string telescope = fmt::format("{:g} m telescope at {}", run.telescope.diameter,
+                                            format_length(run.telescope.wavelength));
   return run.sets.size() == 1 ? telescope
                               : fmt::format("Set 1 of {}: {}", run.sets.size(), telescope);
 }
