@@ -55,7 +55,7 @@ enum class FitsShape {
   frames   ///< columns x rows x count x sets
 };
 
-/// Reads the image of a file's first HDU: as its shape says, where axes that are missing at the end
+/// Reads the image of a file's first HDU: as `allowed` says, where axes that are missing at the end
 /// count 1. The path is taken literally, without CFITSIO's extended file name syntax.
 /// @param key  the configuration key that named the file, for the error
 /// @throws InputError where the file is missing or unreadable, or its image has another shape or
