@@ -1,4 +1,5 @@
 #include "objectives/design_metric.hpp"
+#include "studies/commands.hpp"
 #include "studies/design_text.hpp"
 #include "studies/interrupt.hpp"
 #include "studies/progress.hpp"
@@ -330,7 +331,11 @@ void run_benchmark(const CommandLine& command_line) {
   require_one_condition(configuration);
   Benchmark benchmark(configuration);
   std::optional<RunRecord> record;
-  if (command_line.output) record.emplace(command_line);
+  if (command_line.output) {
+    record.emplace(command_line);
+  } else {
+    print_ignored_keys(command_line);
+  }
   const InterruptWatch watch;
 
   benchmark.prepare();

@@ -1,11 +1,15 @@
 #include "studies/commands.hpp"
 
+#include "studies/command_line.hpp"
 #include "studies/manual_page.hpp"
 #include "studies/shell_completion.hpp"
 #include "studies/studies.hpp"
 
 #include <algorithm>
 #include <initializer_list>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
@@ -18,8 +22,36 @@ const Keys site{"telescope", "seeing"};
 const Keys simulation{"source", "screens", "sensor", "detector", "reconstruction", "simulation"};
 /// What judges a design.
 const Keys judgement{"objective"};
-/// What a search takes besides.
+/// What a search may vary, and how it does that.
+const Keys space{"search.detector_window",
+                 "search.exposure",
+                 "search.initial_guess",
+                 "search.layout",
+                 "search.order",
+                 "search.plane_count",
+                 "search.precision",
+                 "search.pupil_pixels",
+                 "search.reconstruction_oversampling",
+                 "search.reconstruction_window",
+                 "search.relaxation",
+                 "search.relaxation_end",
+                 "search.relaxation_start",
+                 "search.seed",
+                 "search.time_limit",
+                 "search.tolerance",
+                 "search.z1",
+                 "search.z2",
+                 "search.z3",
+                 "search.z4",
+                 "search.z5",
+                 "search.z6",
+                 "search.z_far",
+                 "search.z_near",
+                 "search.z_third"};
+/// What finds one best design in it.
 const Keys search{"search", "baseline", "verify"};
+/// How a design is simulated on screens that no search has seen.
+const Keys fresh_screens{"verify.screens", "verify.seed", "verify.truth_factor"};
 
 /// Lengths of other sections that scale with a design.
 const Keys moved_lengths{"baseline.planes",    "objective.wfe_scale",
@@ -140,7 +172,7 @@ const std::vector<Command>& commands() {
            "Takes the folders of a sweep and of a search for the same telescope, simulates the "
            "best design of each on screens that neither has seen, and gives the paired "
            "difference of their costs.",
-       .keys = {"verify.screens", "verify.seed", "verify.truth_factor"},
+       .keys = fresh_screens,
        .examples = {"nlcwfs compare results/sweep-1 results/optimize-1"},
        .run = run_compare,
        .arguments = {"SWEEP", "OPTIMIZE"}},
@@ -151,7 +183,7 @@ const std::vector<Command>& commands() {
            "Searches designs that no other betters in all of trade.objectives, over numbers of "
            "planes and pixels, and verifies the front on fresh screens. front.csv has the "
            "front, knee.cfg its knee.",
-       .keys = joined({site, simulation, judgement, search, {"trade"}}),
+       .keys = joined({site, simulation, judgement, space, fresh_screens, {"trade"}}),
        .examples = {"nlcwfs trade --trade.objectives total_wfe_nm,model_seconds,plane_count"},
        .run = run_trade},
       {.name = "law",
@@ -159,7 +191,8 @@ const std::vector<Command>& commands() {
        .description = "fit the scaling law that advise follows to the best designs at several D/r0",
        .about = "Searches the best symmetric design at each of law.d_over_r0 and fits lines to the "
                 "planes and what they reach. Its law.json can be the advise.law of another day.",
-       .keys = joined({{"telescope"}, simulation, judgement, search, {"law"}}),
+       .keys =
+           joined({{"telescope", "seeing.outer_scale"}, simulation, judgement, search, {"law"}}),
        .examples = {"nlcwfs law --law.d_over_r0 3,4,6,8"},
        .run = run_law},
       {.name = "advise",
@@ -172,7 +205,8 @@ const std::vector<Command>& commands() {
            joined({site,
                    {"source", "screens.seed", "sensor", "detector", "reconstruction", "simulation"},
                    judgement,
-                   {"advise", "verify.screens", "verify.seed", "verify.truth_factor"}}),
+                   fresh_screens,
+                   {"advise"}}),
        .examples = {"nlcwfs advise --telescope.diameter 8.2 --seeing.fried_parameter 1m --verify"},
        .run = run_advise},
       {.name = "scale",
@@ -257,6 +291,20 @@ std::vector<std::string> command_names() {
   std::vector<std::string> names;
   for (const Command& command : commands()) names.push_back(command.name);
   return names;
+}
+
+void print_ignored_keys(const CommandLine& command_line) {
+  const Command& command = command_of(command_line.command);
+  std::vector<std::string> ignored;
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (command_line.configuration.source(key.name) == "on the command line" &&
+        !command.reads(key.name)) {
+      ignored.push_back(key.name);
+    }
+  }
+  if (ignored.empty()) return;
+  fmt::print("note: {0} does not use {1}; nlcwfs {0} --help lists what it uses\n", command.name,
+             fmt::join(ignored, ", "));
 }
 
 }  // namespace nlcwfs

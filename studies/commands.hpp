@@ -37,4 +37,8 @@ const Command& command_of(std::string_view name);
 /// Their names, in that order.
 std::vector<std::string> command_names();
 
+/// Prints a note of keys on the command line that mean nothing to the command, where a user surely
+/// meant something. Files are silent: they serve several commands.
+void print_ignored_keys(const CommandLine& command_line);
+
 }  // namespace nlcwfs

@@ -199,10 +199,9 @@ Configuration law_conditions(const Configuration& configuration) {
     constexpr std::array searched{"telescope", "source",         "screens",
                                   "detector",  "reconstruction", "simulation",
                                   "objective", "search",         "verify"};
-    if (!configuration.is_set(key.name) ||
-        (std::ranges::count(searched, section) == 0 && key.name != "seeing.outer_scale")) {
-      continue;
-    }
+    const bool counts =
+        std::ranges::count(searched, section) != 0 || key.name == "seeing.outer_scale";
+    if (!counts || !configuration.is_set(key.name)) continue;
     conditions.set(key.name, configuration.value_text(key.name), conditions_source);
   }
   return conditions;

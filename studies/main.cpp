@@ -16,29 +16,12 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 namespace {
 
 enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 3 };
-
-/// A note of keys on the command line that mean nothing to the command, where a user surely meant
-/// something. Files are silent: they serve several commands.
-void print_ignored_keys(const nlcwfs::CommandLine& command_line) {
-  const nlcwfs::Command& command = nlcwfs::command_of(command_line.command);
-  std::vector<std::string> ignored;
-  for (const nlcwfs::ConfigurationKey& key : nlcwfs::configuration_keys()) {
-    if (command_line.configuration.source(key.name) == "on the command line" &&
-        !command.reads(key.name)) {
-      ignored.push_back(key.name);
-    }
-  }
-  if (ignored.empty()) return;
-  fmt::print("note: {0} does not use {1}; nlcwfs {0} --help lists what it uses\n", command.name,
-             fmt::join(ignored, ", "));
-}
 
 void run(int argc, const char* const* argv) {
   using namespace nlcwfs;
@@ -59,7 +42,6 @@ void run(int argc, const char* const* argv) {
     return;
   }
   start_log(command_line.log_level);
-  print_ignored_keys(command_line);
   if (command_line.output) OutputFolder::require_free(*command_line.output);
   const int threads =
       command_line.threads > 0 ? command_line.threads : tbb::this_task_arena::max_concurrency();

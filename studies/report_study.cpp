@@ -2,6 +2,7 @@
 
 #include "results/output_folder.hpp"
 #include "results/report_page.hpp"
+#include "studies/commands.hpp"
 #include "studies/report_data.hpp"
 #include "studies/studies.hpp"
 
@@ -20,6 +21,7 @@ void write_report(const std::filesystem::path& folder) {
 void run_report(const CommandLine& command_line) {
   const std::filesystem::path folder = command_line.arguments.front();
   write_report(folder);
+  print_ignored_keys(command_line);
   fmt::print("{} is written.\n", (folder / "report.html").string());
 }
 

@@ -1,5 +1,6 @@
 #include "studies/run_record.hpp"
 
+#include "studies/commands.hpp"
 #include "studies/report_study.hpp"
 #include "studies/version.hpp"
 
@@ -14,6 +15,7 @@ RunRecord::RunRecord(const CommandLine& command_line)
       archive_(command_line.resume ? Archive::reopened(folder_.file("archive.sqlite"))
                                    : Archive(folder_.file("archive.sqlite"))) {
   if (!command_line.resume) folder_.write("config.cfg", command_line.configuration.dump());
+  if (!command_line.silent) print_ignored_keys(command_line);
 }
 
 void RunRecord::note_interrupted(const std::string& what) {

@@ -18,7 +18,8 @@ namespace nlcwfs {
 class RunRecord {
  public:
   /// Makes the folder with the configuration and an empty archive; with --resume it takes those of
-  /// the earlier run. Call it when nothing in the input can be wrong any more.
+  /// the earlier run. Notes keys that the command ignores. Call it when nothing in the input can be
+  /// wrong any more.
   explicit RunRecord(const CommandLine& command_line);
 
   /// Where the run writes to.
