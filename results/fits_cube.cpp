@@ -200,7 +200,9 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
       cube.slices.push_back(std::move(slice));
     }
   } catch (const FitsFailure& error) {
-    refuse(fmt::format("it cannot be read: {}", error.what()));
+    refuse(
+        fmt::format("it cannot be read: it is no FITS file, damaged or cut short; CFITSIO says: {}",
+                    error.what()));
   }
   return cube;
 }

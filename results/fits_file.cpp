@@ -2,6 +2,7 @@
 
 #include <array>
 #include <exception>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -15,8 +16,10 @@ void check_fits(int status) {
   fits_get_errstatus(status, summary.data());
   fits_read_errmsg(detail.data());  // the oldest, which is nearest to the cause
   fits_clear_errmsg();
-  throw FitsFailure(detail[0] == '\0' ? fmt::format("{}", summary.data())
-                                      : fmt::format("{} ({})", summary.data(), detail.data()));
+  std::string cause(detail.data());
+  if (cause.ends_with(':')) cause.pop_back();  // what it announces is CFITSIO's next message
+  throw FitsFailure(cause.empty() ? fmt::format("{}", summary.data())
+                                  : fmt::format("{} ({})", summary.data(), cause));
 }
 
 void CloseFits::operator()(fitsfile* file) const {

@@ -93,8 +93,10 @@ std::vector<std::string> differing_conditions(const Configuration& configuration
                     key.name == "seeing.outer_scale" ? here.diameter / there.diameter
                                                      : here.wavelength / there.wavelength);
     if (asked == laws) continue;
+    const bool is_noiseless = key.name == "detector.photons" && laws == "0";
     notes.push_back(fmt::format("{} is {}, where the law's designs have {}{}", key.name, asked,
-                                laws, key.kind == Kind::length ? " at this telescope" : ""));
+                                is_noiseless ? "no photon noise" : laws,
+                                key.kind == Kind::length ? " at this telescope" : ""));
   }
   return notes;
 }
@@ -147,6 +149,7 @@ void run_advise(const CommandLine& command_line) {
                        fmt::format("the finer truth does not suit the design: {}", error.what()));
     }
   }
+  const bool is_elsewhere = !notes.empty();
   RunRecord record(command_line);
 
   auto predictions = predictions_of(file.law, d_over_r0, telescope);
@@ -194,8 +197,9 @@ void run_advise(const CommandLine& command_line) {
                           verified ? &verified->performances.front() : nullptr));
   fmt::print("The law knows the near pair's distance to {:.0f} %, the far pair's to {:.0f} %.\n\n",
              100.0 * near.standard_error / near.mean, 100.0 * far.standard_error / far.mean);
-  fmt::print("By the law of {} searches, D/r0 = {:g} to {:g}{}:\n{}", file.data.size(),
+  fmt::print("By the law of {} searches, D/r0 = {:g} to {:g}{}{}:\n{}", file.data.size(),
              file.law.least_d_over_r0, file.law.greatest_d_over_r0,
+             is_elsewhere ? ", for its own settings (see the notes)" : "",
              verified ? fmt::format(", and on {} fresh screens",
                                     verified->performances.front().screens.size())
                       : "",

@@ -111,6 +111,7 @@ void run_screens(const CommandLine& command_line) {
   fmt::print("  {:<34} {:>20} {:>28.4g}\n", "piston removed", with_error(variance), expected);
   fmt::print("  {:<34} {:>20} {:>28.4g}\n", "piston, tip and tilt removed",
              with_error(tilt_removed), expected_tilt_removed);
+  if (count == 1) fmt::print("note: one screen has no standard error\n");
   fmt::print("\n");
   record.close();
 }

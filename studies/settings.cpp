@@ -181,6 +181,18 @@ std::vector<Condition> conditions_of(const Configuration& configuration, const T
   return conditions;
 }
 
+/// At D/r0 = 0.1 a wavefront has a fortieth of a wave RMS (Noll): below, a unit was forgotten.
+void refuse_no_turbulence(const Configuration& configuration, double d_over_r0) {
+  constexpr double least = 0.1;
+  if (d_over_r0 >= least) return;
+  for (const char* key : {"seeing.d_over_r0", "seeing.fwhm", "seeing.fried_parameter"}) {
+    if (!configuration.is_set(key)) continue;
+    throw InputError(key, configuration.value_text(key),
+                     fmt::format("a D/r0 of at least {:g}, this is {:.2g}; r0 has its unit: 12cm",
+                                 least, d_over_r0));
+  }
+}
+
 }  // namespace
 
 void require_memory(std::string_view key, const std::string& value, double count, int samples) {
@@ -313,6 +325,7 @@ std::vector<Seeing> seeings_of(const Configuration& configuration, const Telesco
   }
   std::vector<Seeing> seeings;
   for (const double fried_parameter : fried_parameters) {
+    refuse_no_turbulence(configuration, telescope.diameter / fried_parameter);
     seeings.push_back({.fried_parameter = fried_parameter,
                        .outer_scale = configuration.optional_length("seeing.outer_scale")});
     seeings.back().validate();

@@ -106,7 +106,7 @@ TEST_F(Advise, NotesWhatTheLawsDesignsHaveOtherwise) {
   EXPECT_EQ(notes("other", {"--reconstruction.tolerance", "2nm", "--detector.photons", "1e5"}),
             "note: seeing.outer_scale is not set, where the law's designs have 5 m at this "
             "telescope\n"
-            "note: detector.photons is 100000, where the law's designs have 0\n"
+            "note: detector.photons is 100000, where the law's designs have no photon noise\n"
             "note: reconstruction.tolerance is 2 nm, where the law's designs have 1 nm at this "
             "telescope\n");
 }

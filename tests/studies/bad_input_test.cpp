@@ -136,6 +136,8 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
                   "47km,4000km"},
                  "sensor.planes = 4000000", "fewer samples reach farther");
   expect_refused("evaluate", {"--seeing.d_over_r0", "1e200"}, "seeing.d_over_r0 = 1e200", "10000");
+  expect_refused("advise", {"--seeing.fried_parameter", "12"}, "seeing.fried_parameter = 12",
+                 "a D/r0 of at least 0.1, this is 0.042; r0 has its unit: 12cm");
   expect_refused("evaluate", {"--seeing.fwhm", "1e9"},
                  "seeing.fried_parameter = 1.0709928787729236e-10", "at least the diameter");
   expect_refused("scale", {}, "scale.diameter = (nothing)", "such as --scale.diameter 8.2m");
