@@ -19,7 +19,6 @@ constexpr double cauchy_constant = 2.385;
 constexpr double least_relative_error = 1e-6;
 constexpr std::size_t least_data = 4;
 constexpr std::size_t least_conditions = 3;
-constexpr double least_reach = 1.1;
 
 /// A datum of one line.
 struct Point {
@@ -160,11 +159,11 @@ void validate(std::span<const ScalingDatum> data) {
     }
   }
   if (conditions.size() < least_conditions ||
-      *conditions.rbegin() < least_reach * *conditions.begin()) {
+      *conditions.rbegin() < ScalingLaw::least_reach * *conditions.begin()) {
     throw InputError("data.d_over_r0", fmt::format("{}", fmt::join(conditions, ",")),
                      fmt::format("at least {} different values that reach over a factor of {} or "
                                  "more",
-                                 least_conditions, least_reach));
+                                 least_conditions, ScalingLaw::least_reach));
   }
 }
 

@@ -40,6 +40,9 @@ struct LawLine {
 /// How a symmetric four-plane design follows the seeing. By constant Fresnel numbers D/r0 is all
 /// that it can depend on, for one detector, reconstruction and cost.
 struct ScalingLaw {
+  /// The greatest D/r0 that a law is fitted to is at least so many times the smallest.
+  static constexpr double least_reach = 1.1;
+
   LawLine z_near_talbot;            ///< of the ScalingDatum members of the same names
   LawLine far_fresnel_number;       ///< dimensionless
   LawLine residual_wfe;             ///< wavelengths

@@ -11,7 +11,9 @@ Bounds from_to(double least, double greatest) { return {.least = least, .greates
 
 /// Of a telescope, and of light that it looks at: a number without its unit is beyond.
 constexpr Bounds diameter_bounds{.least = 0.0, .greatest = 1e3, .least_included = false};
+constexpr Bounds bench_beam_bounds{.least = 0.0, .greatest = 1.0, .least_included = false};
 constexpr Bounds wavelength_bounds{.least = 0.0, .greatest = 1e-3, .least_included = false};
+constexpr Bounds path_bounds = wavelength_bounds;
 
 /// The relaxation beta diverges at both ends.
 constexpr Bounds relaxation_bounds{
@@ -68,7 +70,7 @@ std::vector<Variation> variations() {
         {"flat", "centroid"}},
        {"reconstruction_oversampling", Kind::integer,
         "Reconstruction samples per detector pixel and axis.", from_to(1, 16), "1,2", "1,2,4"},
-       {"tolerance", Kind::length, "Tolerance of the reconstruction, optical path.", above(0),
+       {"tolerance", Kind::length, "Tolerance of the reconstruction, optical path.", path_bounds,
         "0.1nm:10nm", "0.1nm:10nm:5:log"},
        {"exposure", Kind::time, "Exposure of a frame, with detector.photon_rate.", above(0),
         "0.1ms:10ms", "0.1ms:10ms:5:log"}});
@@ -109,7 +111,7 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::length,
        .description = "Beam diameter behind a relay; where set, distances on the bench are printed "
                       "too.",
-       .bounds = above(0),
+       .bounds = bench_beam_bounds,
        .example = "10mm"},
 
       {.name = "seeing.d_over_r0",
@@ -286,7 +288,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "0",
        .description = "Read noise per pixel, root mean square.",
        .unit = "electrons",
-       .bounds = at_least(0)},
+       .bounds = from_to(0, 1e6)},
 
       {.name = "reconstruction.max_loops",
        .kind = Kind::integer,
@@ -298,7 +300,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "1nm",
        .description = "Change between consecutive loops below which the reconstruction has "
                       "converged, as optical path; 0 = always max_loops.",
-       .bounds = at_least(0)},
+       .bounds = from_to(0, 1e-3)},
       {.name = "reconstruction.stopping",
        .kind = Kind::choice,
        .default_text = "difference",
@@ -700,7 +702,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "10nm",
        .description = "Amplitude (peak) of the sinusoidal aberrations of response, optical path; "
                       "their orientations and phases are drawn for each of screens.count.",
-       .bounds = above(0)},
+       .bounds = path_bounds},
       {.name = "response.distances",
        .kind = Kind::axis,
        .description = "Distances z at which response measures pairs of planes -z, +z too: a map. "
@@ -725,7 +727,7 @@ std::vector<ConfigurationKey> make_keys() {
        .description =
            "Beam diameter behind a relay at the telescope that a design is moved to. Not "
            "set: as telescope.relay_beam_diameter.",
-       .bounds = above(0),
+       .bounds = bench_beam_bounds,
        .example = "10mm"}};
   keys.insert(keys.end(), others.begin(), others.end());
   return keys;

@@ -66,16 +66,18 @@ std::string planes_table(const SensorDesign& design, const Telescope& telescope,
   return table;
 }
 
+std::string variable_text(std::string_view name, double value) {
+  if (name.starts_with('z') || name == "tolerance") return format_length(value);
+  if (name == "initial_guess") return value == 0.0 ? "flat" : "centroid";
+  return fmt::format("{:.4g}{}", value, name == "exposure" ? " s" : "");
+}
+
 std::string choices_text(const DesignSpace& space, const SensorDesign& design) {
   std::string text;
   for (const DesignProperty& property : design_properties()) {
     if (!space.decides(property.name)) continue;
-    const double value = property.get(design);
-    const std::string shown = property.name == "initial_guess"
-                                  ? (value == 0.0 ? "flat" : "centroid")
-                              : property.name == "tolerance" ? format_length(value)
-                                                             : fmt::format("{:.4g}", value);
-    text += fmt::format("{}{} {}", text.empty() ? "  with " : ", ", property.name, shown);
+    text += fmt::format("{}{} {}", text.empty() ? "  with " : ", ", property.name,
+                        variable_text(property.name, property.get(design)));
   }
   return text.empty() ? text : text + '\n';
 }

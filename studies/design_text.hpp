@@ -8,6 +8,7 @@
 #include "objectives/design_space.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nlcwfs {
@@ -25,6 +26,9 @@ std::string telescope_line(const Telescope& telescope, const Seeing& seeing);
 /// on the bench behind a relay, captured light where the performance is known.
 std::string planes_table(const SensorDesign& design, const Telescope& telescope,
                          const Seeing& seeing, const Performance* performance = nullptr);
+
+/// The value of a design's variable as people write it, with its unit: "47 km", "0.25", "flat".
+std::string variable_text(std::string_view name, double value);
 
 /// A line with what a space decides on other than the planes; empty where that is nothing.
 std::string choices_text(const DesignSpace& space, const SensorDesign& design);

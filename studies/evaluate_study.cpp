@@ -56,7 +56,7 @@ void run_evaluate(const CommandLine& command_line) {
   if (performance.screens.size() == 1) {
     record.print("note: one screen has no standard error; screens.count = 16 or more has\n");
   }
-  record.print("{}", captured_energy_warnings(design, performance));
+  record.print("{}{}", limits_text(tried, trial), captured_energy_warnings(design, performance));
   record.print("\n");
   record.close();
 }

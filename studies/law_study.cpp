@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,6 +39,39 @@ std::array<int, 4> order_of(const Configuration& configuration) {
   std::array<int, 4> order{};
   std::ranges::copy(orders.front(), order.begin());
   return order;
+}
+
+/// At least so many, and none twice.
+std::vector<double> seeings_of_law(const Configuration& configuration) {
+  std::vector<double> ratios = configuration.numbers("law.d_over_r0");
+  const std::set<double> distinct(ratios.begin(), ratios.end());
+  if (distinct.size() < least_seeings || distinct.size() < ratios.size() ||
+      *distinct.rbegin() < ScalingLaw::least_reach * *distinct.begin()) {
+    throw InputError("law.d_over_r0", configuration.value_text("law.d_over_r0"),
+                     fmt::format("at least {} different values that reach over a factor of {}, to "
+                                 "which the lines are fitted",
+                                 least_seeings, ScalingLaw::least_reach));
+  }
+  return ratios;
+}
+
+/// A law tells the distances of two pairs, so these are what its searches vary.
+void require_two_pairs(const Configuration& configuration) {
+  const auto refuse = [&](const std::string& key, const char* allowed) {
+    throw InputError(key, configuration.value_text(key), allowed);
+  };
+  if (configuration.choice("search.layout") != "symmetric") {
+    refuse("search.layout", "symmetric: a law tells the distances of two pairs");
+  }
+  if (configuration.value_text("search.plane_count") != "4") {
+    refuse("search.plane_count", "4: a law tells the distances of two pairs");
+  }
+  for (const char* key : {"search.z_near", "search.z_far"}) {
+    const auto domain = configuration.domain(key);
+    if (domain && !std::holds_alternative<ValueRange>(*domain)) {
+      refuse(key, "a range that the law's searches vary, such as 5km:60km");
+    }
+  }
 }
 
 /// Screens that all end alike (at the last loop) would say that a value is exact.
@@ -123,12 +158,8 @@ void run_law(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
   const std::array<int, 4> order = order_of(configuration);
   require_one_condition(configuration);
-  const std::vector<double> ratios = configuration.numbers("law.d_over_r0");
-  if (ratios.size() < least_seeings) {
-    throw InputError(
-        "law.d_over_r0", configuration.value_text("law.d_over_r0"),
-        fmt::format("at least {} values, to which the lines are fitted", least_seeings));
-  }
+  const std::vector<double> ratios = seeings_of_law(configuration);
+  require_two_pairs(configuration);
   // The one that shows what is wrong with the input, before anything is written.
   const DesignSearch first(at_seeing(configuration, order, ratios.front()));
   RunRecord record(command_line);

@@ -93,10 +93,7 @@ std::string ranges_text(const DesignSearch& task, const DesignSearchResult& resu
       fmt::format("Moved alone, each variable is as good on {} fresh screens (Student's t, 5 %):\n",
                   task.scan.screen_count());
   for (const OptimumRange& range : result.ranges) {
-    const bool is_length = range.name.starts_with('z') || range.name == "tolerance";
-    const auto shown = [&](double value) {
-      return is_length ? format_length(value) : fmt::format("{:.4g}", value);
-    };
+    const auto shown = [&](double value) { return variable_text(range.name, value); };
     // With its value, since the pair that a search calls near may be the farther one.
     text += fmt::format("  {:<28} {:>10}: {:>10} to {}", range.name, shown(range.best),
                         shown(range.least), shown(range.greatest));
@@ -109,15 +106,6 @@ std::string ranges_text(const DesignSearch& task, const DesignSearchResult& resu
     text += '\n';
   }
   return text + '\n';
-}
-
-std::string limits_text(const TriedDesign& best) {
-  if (best.violation == 0.0) return {};
-  return fmt::format(
-      "warning: no design was found that keeps objective.limits; the best exceeds them by {:.2g} "
-      "of "
-      "their bounds\n",
-      best.violation);
 }
 
 void print_result(const DesignSearch& task, const DesignSearchResult& result,
@@ -143,7 +131,8 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
   fmt::print(
       "{}\n{}{}",
       baseline_verdict_text(result.gain, mean_and_standard_error(result.baseline.costs).mean),
-      limits_text(best), captured_energy_warnings(best.design, best_performance));
+      limits_text(best, task.verification),
+      captured_energy_warnings(best.design, best_performance));
 }
 
 }  // namespace

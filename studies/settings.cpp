@@ -182,15 +182,14 @@ std::vector<Condition> conditions_of(const Configuration& configuration, const T
 }
 
 /// At D/r0 = 0.1 a wavefront has a fortieth of a wave RMS (Noll): below, a unit was forgotten.
-void refuse_no_turbulence(const Configuration& configuration, double d_over_r0) {
+void refuse_no_turbulence(const Configuration& configuration, const char* key, double d_over_r0) {
   constexpr double least = 0.1;
   if (d_over_r0 >= least) return;
-  for (const char* key : {"seeing.d_over_r0", "seeing.fwhm", "seeing.fried_parameter"}) {
-    if (!configuration.is_set(key)) continue;
-    throw InputError(key, configuration.value_text(key),
-                     fmt::format("a D/r0 of at least {:g}, this is {:.2g}; r0 has its unit: 12cm",
-                                 least, d_over_r0));
-  }
+  throw InputError(
+      key, configuration.value_text(key),
+      fmt::format("a D/r0 of at least {:g}, this is {:.2g}; lengths without a unit are "
+                  "in m, such as 0.12 or 12cm",
+                  least, d_over_r0));
 }
 
 }  // namespace
@@ -311,11 +310,14 @@ std::vector<Seeing> seeings_of(const Configuration& configuration, const Telesco
   } else {
     const double reference =
         configuration.optional_length("seeing.reference_wavelength").value_or(telescope.wavelength);
+    const bool is_fwhm = configuration.is_set("seeing.fwhm");
     const auto add = [&](double fried_parameter) {
       fried_parameters.push_back(
           scaled_fried_parameter(fried_parameter, reference, telescope.wavelength));
+      refuse_no_turbulence(configuration, is_fwhm ? "seeing.fwhm" : "seeing.fried_parameter",
+                           telescope.diameter / fried_parameters.back());
     };
-    if (configuration.is_set("seeing.fwhm")) {
+    if (is_fwhm) {
       for (const double fwhm : configuration.numbers("seeing.fwhm")) {
         add(fried_parameter_of_fwhm(fwhm, reference));
       }
@@ -325,7 +327,6 @@ std::vector<Seeing> seeings_of(const Configuration& configuration, const Telesco
   }
   std::vector<Seeing> seeings;
   for (const double fried_parameter : fried_parameters) {
-    refuse_no_turbulence(configuration, telescope.diameter / fried_parameter);
     seeings.push_back({.fried_parameter = fried_parameter,
                        .outer_scale = configuration.optional_length("seeing.outer_scale")});
     seeings.back().validate();
@@ -429,6 +430,12 @@ DesignSpace search_space_of(const Configuration& configuration, const Telescope&
       .plane_counts =
           whole_numbers("search.plane_count", *configuration.domain("search.plane_count")),
       .orders = configuration.orders("search.order")};
+  for (const VisitingOrder& order : options.orders) {
+    if (std::ranges::count(options.plane_counts, static_cast<int>(order.size())) > 0) continue;
+    throw InputError("search.order", fmt::format("{}", fmt::join(order, "")),
+                     fmt::format("an order of {} planes, see search.plane_count",
+                                 fmt::join(options.plane_counts, " or ")));
+  }
   for (const ConfigurationKey& key : configuration_keys()) {
     if (!key.name.starts_with("search.") || key.kind != Kind::domain ||
         key.name == "search.plane_count") {
@@ -437,6 +444,10 @@ DesignSpace search_space_of(const Configuration& configuration, const Telescope&
     if (const auto domain = configuration.domain(key.name)) {
       options.domains.emplace(key.name.substr(std::string_view("search.").size()), *domain);
     }
+  }
+  if (options.domains.contains("exposure") && options.base.detector.photon_rate == 0.0) {
+    throw InputError("search.exposure", configuration.value_text("search.exposure"),
+                     "nothing without detector.photon_rate, such as --detector.photon_rate 1e8");
   }
   return {telescope, std::move(options)};
 }

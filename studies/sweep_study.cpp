@@ -522,8 +522,8 @@ void run_sweep(const CommandLine& command_line) {
       task.verification.conditions().front().simulation->truth_samples(),
       performance_table({{"sweep's screens", &search_performance, on_search_screens.costs},
                          {"fresh screens", &performance, best.costs}}));
-  record.print("{}\n{}{}\n", conditions_table(best, task.verification),
-               ranking_text(ranking, "The sweep"),
+  record.print("{}\n{}{}{}\n", conditions_table(best, task.verification),
+               ranking_text(ranking, "The sweep"), limits_text(best, task.verification),
                captured_energy_warnings(best.design, performance));
   record.close();
 }

@@ -44,6 +44,25 @@ std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial)
   return table;
 }
 
+std::string limits_text(const TriedDesign& tried, const DesignTrial& trial) {
+  std::string text;
+  for (std::size_t k = 0; k < trial.conditions().size(); ++k) {
+    const Condition& condition = trial.conditions()[k];
+    const SensorDesign design = condition.lit(tried.design);
+    const MetricContext context{design, trial.cost().operation, condition.fried_parameter};
+    for (const MetricBound& limit : trial.cost().limits) {
+      const MeanAndError mean = tried.performances[k].mean_of(
+          [&](const ScreenPerformance& screen) { return limit.metric.value(screen, context); });
+      if (limit.excess(mean.mean) == 0.0) continue;
+      text += fmt::format(
+          "warning: objective.limits asks for {} {} {:g}, which is {}{}\n", limit.metric.name,
+          limit.side == Side::above ? "below" : "above", limit.bound, with_error(mean),
+          trial.conditions().size() == 1 ? "" : fmt::format(" under {}", condition.name));
+    }
+  }
+  return text;
+}
+
 void note_missing_screens(RunRecord& record, const TriedDesign& tried, const DesignTrial& trial) {
   const auto done = static_cast<int>(tried.costs.size());
   if (done == trial.screen_count()) return;

@@ -19,6 +19,9 @@ nlohmann::ordered_json to_json(const TriedDesign& tried, const DesignTrial& tria
 /// where there is one.
 std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial);
 
+/// For people, a line for each limit that the design breaks under a condition; empty without any.
+std::string limits_text(const TriedDesign& tried, const DesignTrial& trial);
+
 /// Notes an interrupted run where a design was not tried on all screens of the trial.
 void note_missing_screens(RunRecord& record, const TriedDesign& tried, const DesignTrial& trial);
 

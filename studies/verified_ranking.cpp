@@ -9,9 +9,11 @@
 #include "studies/units.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
@@ -92,20 +94,28 @@ nlohmann::ordered_json to_json(const std::vector<RankedDesign>& ranking,
 
 std::string ranking_text(const std::vector<RankedDesign>& ranking, std::string_view of) {
   if (ranking.size() < 2) return {};
+  std::vector<std::string> planes;
+  std::size_t width = 0;
+  for (const RankedDesign& design : ranking) {
+    std::vector<std::string> distances;
+    for (const double z : design.verified.design.planes) distances.push_back(format_length(z));
+    planes.push_back(fmt::format("{}", fmt::join(distances, ", ")));
+    width = std::max(width, planes.back().size());
+  }
   std::string text =
       fmt::format("{}'s best {} designs on the fresh screens:\n", of, ranking.size());
-  for (const RankedDesign& design : ranking) {
-    std::string planes;
-    for (const double z : design.verified.design.planes) {
-      planes += fmt::format("{}{}", planes.empty() ? "" : ", ", format_length(z));
-    }
-    const std::string above = with_error(cost_above_best(design));
-    text += fmt::format("  cost {:>18}  {:<44} {}\n",
-                        with_error(mean_and_standard_error(design.verified.costs)), planes,
-                        &design == &ranking.front() ? "the best"
-                        : design.against_best.verdict == Verdict::indistinguishable
-                            ? fmt::format("a tie: {} more", above)
-                            : fmt::format("worse by {}", above));
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    MeanAndError above = cost_above_best(ranking[i]);
+    // Of designs that tie, one that keeps a limit better may cost more.
+    const char* const direction = above.mean < 0.0 ? "less" : "more";
+    above.mean = std::abs(above.mean);
+    text += fmt::format("  cost {:>18}  {:<{}}  {}\n",
+                        with_error(mean_and_standard_error(ranking[i].verified.costs)), planes[i],
+                        width,
+                        i == 0 ? "the best"
+                        : ranking[i].against_best.verdict == Verdict::indistinguishable
+                            ? fmt::format("a tie: {} {}", with_error(above), direction)
+                            : fmt::format("worse by {}", with_error(above)));
   }
   return text + '\n';
 }

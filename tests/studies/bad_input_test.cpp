@@ -136,8 +136,16 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
                   "47km,4000km"},
                  "sensor.planes = 4000000", "fewer samples reach farther");
   expect_refused("evaluate", {"--seeing.d_over_r0", "1e200"}, "seeing.d_over_r0 = 1e200", "10000");
+  expect_refused("optimize", {"--search.exposure", "1ms:2ms"}, "search.exposure = 1ms:2ms",
+                 "nothing without detector.photon_rate");
+  expect_refused("evaluate", {"--reconstruction.tolerance", "1"}, "reconstruction.tolerance = 1",
+                 "0.001 m");
+  expect_refused("scale", {"--scale.relay_beam_diameter", "20"}, "scale.relay_beam_diameter = 20",
+                 "at most 1 m");
+  expect_refused("optimize", {"--search.order", "12"}, "search.order = 12",
+                 "an order of 4 planes, see search.plane_count");
   expect_refused("advise", {"--seeing.fried_parameter", "12"}, "seeing.fried_parameter = 12",
-                 "a D/r0 of at least 0.1, this is 0.042; r0 has its unit: 12cm");
+                 "a D/r0 of at least 0.1, this is 0.042; lengths without a unit are in m, such as");
   expect_refused("evaluate", {"--seeing.fwhm", "1e9"},
                  "seeing.fried_parameter = 1.0709928787729236e-10", "at least the diameter");
   expect_refused("scale", {}, "scale.diameter = (nothing)", "such as --scale.diameter 8.2m");

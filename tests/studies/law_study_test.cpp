@@ -63,7 +63,13 @@ TEST_F(Law, RefusesBadInputInOneLine) {
   };
   EXPECT_THAT(refused({"--search.order", "3412,1234"}), HasSubstr("search.order = 3412,1234"));
   EXPECT_THAT(refused({"--law.d_over_r0", "4,5"}),
-              HasSubstr("law.d_over_r0 = 4,5: at least 4 values"));
+              HasSubstr("law.d_over_r0 = 4,5: at least 4 different values"));
+  EXPECT_THAT(refused({"--law.d_over_r0", "4,4.01,4.02,4.03"}),
+              HasSubstr("that reach over a factor of 1.1"));
+  EXPECT_THAT(refused({"--search.layout", "free"}), HasSubstr("search.layout = free: symmetric"));
+  EXPECT_THAT(refused({"--search.plane_count", "3,4"}), HasSubstr("search.plane_count = 3,4: 4"));
+  EXPECT_THAT(refused({"--search.z_near", "20km"}), HasSubstr("search.z_near = 20km: a range"));
+  EXPECT_THAT(refused({"--search.z_far", "90km,120km"}), HasSubstr("a range that the law's"));
   EXPECT_THAT(refused({"--detector.photons", "1e4,1e5"}), HasSubstr("detector.photons"));
 }
 

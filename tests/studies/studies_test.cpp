@@ -127,6 +127,18 @@ TEST_F(Studies, EvaluateLeavesItsFiles) {
               json["design"]["performance"]["residual_wfe_nm"]["mean"], 1e-9);
 }
 
+TEST_F(Studies, ADesignThatBreaksALimitIsWarnedOf) {
+  for (const char* command : {"evaluate", "optimize", "sweep"}) {
+    const std::string output =
+        done(command, command, {"--objective.limits", "plane_count<2,loops>0,loops<1"}).output;
+    EXPECT_THAT(output,
+                AllOf(HasSubstr("warning: objective.limits asks for plane_count below 2, which is "
+                                "4.00 +- 0.00\n"),
+                      HasSubstr("asks for loops below 1"), Not(HasSubstr("loops above"))))
+        << command;
+  }
+}
+
 TEST_F(Studies, OptimizeVariesWhatItIsTold) {
   const ProgramRun finished =
       done("optimize", "run",
