@@ -219,8 +219,8 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "0",
        .description =
            "What the frames have without light, in their unit, which is subtracted: a number, or a "
-           "FITS file of one image for all planes, one for each, or as many as there are frames.",
-       .example = "100 or dark.fits",
+           "FITS file of one image, one for each plane or one for each frame.",
+       .example = "dark.fits",
        .is_file = true},
       {.name = "frames.bad_pixels",
        .kind = Kind::text,
