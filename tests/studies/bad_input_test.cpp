@@ -363,15 +363,16 @@ TEST_F(BadInput, OfAnOutputFolderThatExists) {
   EXPECT_EQ(names_in("mine").size(), 1u);
 }
 
-TEST_F(BadInput, IsNotToBlameWhereTheOutputCannotBeWritten) {
+TEST_F(BadInput, OfAnOutputFolderThatCannotBeMade) {
   std::ofstream("file") << "in the way";
   // Not even root makes folders in /proc.
   for (const std::string folder : {"file/run", "/proc/run"}) {
-    const ProgramRun failed = run({"evaluate", "--config", "tiny.cfg", "--output", folder});
-    EXPECT_EQ(failed.exit_code, 1);
-    expect_one_line(failed);
-    EXPECT_THAT(failed.errors,
-                StartsWith("nlcwfs: failed: cannot make the output folder " + folder + ": "));
+    const ProgramRun refused = run({"evaluate", "--config", "tiny.cfg", "--output", folder});
+    EXPECT_EQ(refused.exit_code, 2);
+    expect_one_line(refused);
+    EXPECT_THAT(refused.errors,
+                AllOf(StartsWith("nlcwfs: --output = " + folder + ": cannot be made ("),
+                      HasSubstr("name a folder where you may write")));
   }
 }
 
