@@ -3,6 +3,7 @@
 #include "model/input_error.hpp"
 #include "studies/text.hpp"
 #include "studies/units.hpp"
+#include "studies/value_fault.hpp"
 
 #include <algorithm>
 #include <array>
@@ -325,7 +326,14 @@ void Configuration::set(std::string_view key, std::string_view value, std::strin
         fmt::format("unknown key {}; did you mean {}?", source, nearest_word(shown_key, names)));
   }
   if (value.empty() || !row->accepts(value)) {
-    throw InputError(key, shown, fmt::format("{} ({})", row->allowed(), source));
+    const std::string fault = fault_of(*row, value);
+    throw InputError(
+        key, shown,
+        fmt::format("{}{}{} ({})", row->allowed(), fault.empty() ? "" : "; ", fault, source));
+  }
+  if (const std::string repeated = repeated_part(*row, value); !repeated.empty()) {
+    throw InputError(key, shown,
+                     fmt::format("each value once, but {} is twice ({})", repeated, source));
   }
   if (std::ranges::count(seeing_measures, key) > 0) {
     for (const std::string_view other : seeing_measures) {

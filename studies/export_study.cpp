@@ -57,7 +57,10 @@ std::set<std::string> formats_of(const Configuration& configuration) {
     if (format != "csv" && format != "json" && format != "fits") {
       throw InputError("export.formats", one_line(text), "a list of csv, json and fits");
     }
-    formats.insert(format);
+    if (!formats.insert(format).second) {
+      throw InputError("export.formats", one_line(text),
+                       fmt::format("each value once, but {} is twice", format));
+    }
   }
   return formats;
 }

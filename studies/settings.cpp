@@ -34,15 +34,11 @@ Value choice_of(const Configuration& configuration, std::string_view key,
 }
 
 /// A list of whole numbers, or all of a range.
-std::vector<int> whole_numbers(std::string_view key, const Domain& domain) {
+std::vector<int> whole_numbers(const Domain& domain) {
   std::vector<int> numbers;
   if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
     for (const double value : *list) {
-      const auto number = static_cast<int>(value);
-      if (std::ranges::count(numbers, number) > 0) {
-        throw InputError(key, number, "each number once");
-      }
-      numbers.push_back(number);
+      numbers.push_back(static_cast<int>(value));
     }
   } else {
     const auto& range = std::get<ValueRange>(domain);
@@ -426,8 +422,7 @@ DesignSpace search_space_of(const Configuration& configuration, const Telescope&
       .base = std::move(base),
       .layout = choice_of<Layout>(configuration, "search.layout",
                                   {{"symmetric", Layout::symmetric}, {"free", Layout::free}}),
-      .plane_counts =
-          whole_numbers("search.plane_count", *configuration.domain("search.plane_count")),
+      .plane_counts = whole_numbers(*configuration.domain("search.plane_count")),
       .orders = configuration.orders("search.order")};
   for (const ConfigurationKey& key : configuration_keys()) {
     if (!key.name.starts_with("search.") || key.kind != Kind::domain ||

@@ -147,9 +147,56 @@ TEST_F(BadInput, OfAResponse) {
   expect_refused("response", {"--response.frequencies", "0,1"}, "response.frequencies = 0,1",
                  "above 0");
   expect_refused("response", {"--response.frequencies", "5:1:3"}, "response.frequencies = 5:1:3",
+TEST_F(BadInput, IsShownAsItIsTyped) {
+  expect_refused("evaluate", {"--sensor.planes", "1e9km, 47km"}, "sensor.planes = 1e9km", "");
+  expect_refused("evaluate", {"--detector.photons", "1e300"}, "detector.photons = 1e300", "");
+  expect_refused("sweep", {"--sweep.z1", "1km:2km:2"}, "sweep.z1 = 1km:2km:2", "is for");
+  expect_refused("optimize", {"--search.reconstruction_oversampling", "3"},
+                 "reconstruction.oversampling = 3", "multiple or a divisor");
+}
+
+TEST_F(BadInput, OfRangesSaysWhy) {
+  const auto expect_reason = [](const std::string& range, const std::string& why) {
+    expect_refused("sweep", {"--sweep.z_near", range}, "sweep.z_near = " + range,
+                   "such as 5km:100km:24; " + why + " (on the command line)");
+  };
+  expect_reason("60km:5km:3", "the minimum is not below the maximum");
+  expect_reason("5km:5km:3", "the minimum is not below the maximum");
+  expect_reason("5km:60km", "the count is missing");
+  expect_reason("5km:60km:1", "at least 2 values");
+  expect_reason("5km:60km:100000000", "at most 100000 values");
+  expect_reason("0:60km:3:log", "log needs a minimum above 0");
+  expect_refused("optimize", {"--search.z_near", "60km:5km"}, "search.z_near = 60km:5km",
+                 "; the minimum is not below the maximum (");
+  expect_refused("optimize", {"--search.order", "3412,1235"}, "search.order = 3412,1235",
+                 "; 1235: 4 planes have the numbers 1 to 4 (");
+  expect_refused("evaluate", {"--source.bands", "400:800"}, "source.bands = 400:800",
+                 "; without a unit it is in m (");
+  expect_refused("evaluate", {"--telescope.wavelength", "850"}, "telescope.wavelength = 850",
+                 "; without a unit it is in m (");
+}
+
+TEST_F(BadInput, OfListsThatRepeatAValue) {
+  const auto expect_twice = [](const std::string& command, const std::string& key,
+                               const std::string& list, const std::string& value) {
+    expect_refused(command, {"--" + key, list}, key + " = " + list,
+                   "each value once, but " + value + " is twice");
+  };
+  expect_twice("optimize", "seeing.d_over_r0", "4,8,4.0", "4");
+  expect_twice("optimize", "detector.photons", "1e4,10000", "1e4");
+  expect_twice("optimize", "search.z_near", "20km,20000m", "20km");
+  expect_twice("optimize", "search.initial_guess", "flat,flat", "flat");
+  expect_twice("optimize", "search.order", "3412,3412", "3412");
+  expect_twice("sweep", "sweep.z_near", "30km,30km", "30km");
+  expect_twice("law", "law.d_over_r0", "3,3,3,3", "3");
+  expect_twice("reproduce", "reproduce.figures", "3,3", "3");
+  // Planes may be equal.
+  done("evaluate", "equal", {"--sensor.planes", "30km,30km,-60km"});
+}
+
                  "such as 1:16:16");
   expect_refused("response", {"--response.frequencies", "1,3,1"}, "response.frequencies = 1,3,1",
-                 "each number once");
+                 "each value once, but 1 is twice");
   expect_refused("response", {"--response.frequencies", "7.9,8"}, "response.frequencies = 8",
                  "below 8 cycles per pupil diameter, half of detector.pupil_pixels");
   expect_refused("response",
@@ -213,10 +260,11 @@ TEST_F(BadInput, OfASearch) {
                  "search.z5 = 5km:50km", "4 planes, see search.plane_count");
   expect_refused("optimize", {"--baseline.planes", "47km"}, "baseline.planes = 47km",
                  "at least 2 distances");
-  expect_refused("optimize", {"--search.plane_count", "3,3"}, "search.plane_count = 3",
-                 "each number once");
+  expect_refused("optimize", {"--search.plane_count", "3,3"}, "search.plane_count = 3,3",
+                 "each value once");
   expect_refused("optimize", {"--search.order", "1224"}, "search.order = 1224",
-                 "orders of plane numbers");
+                 "orders of plane numbers separated by commas, such as all or 3412,1234; 1224: "
+                 "plane 2 is twice");
   expect_refused("optimize", {"--search.pupil_pixels", "16:64"}, "search.pupil_pixels = 16:64",
                  "a list");
   expect_refused("optimize",

@@ -320,7 +320,7 @@ TEST_F(SweepStudy, RefusesGridsThatCannotBe) {
            {{"--sweep.z_near", "1km:2km"}, "sweep.z_near = 1km:2km: min:max:count"},
            {{"--sweep.z_near", "0,1km"}, "sweep.z_near = 0,1km: "},
            {{"--sweep.plane_count", "2:4:3"}, "sweep.plane_count = 2:4:3: "},
-           {{"--sweep.plane_count", "4,4"}, "sweep.plane_count = 4,4: each number once"},
+           {{"--sweep.plane_count", "4,4"}, "sweep.plane_count = 4,4: each value once"},
            {{"--sweep.plane_count", "7"}, "sweep.plane_count = 7: "},
            {{"--sweep.z1", "1km,2km"}, "sweep.z1 = 1km,2km: is for sweep.layout = free"},
            {{"--sweep.z_third", "1km,2km"}, "sweep.z_third = 1km,2km: there are at most 4"},
