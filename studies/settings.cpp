@@ -178,14 +178,36 @@ std::vector<Condition> conditions_of(const Configuration& configuration, const T
 }
 
 /// At D/r0 = 0.1 a wavefront has a fortieth of a wave RMS (Noll): below, a unit was forgotten.
-void refuse_no_turbulence(const Configuration& configuration, double d_over_r0) {
+void require_turbulence(const Configuration& configuration, double d_over_r0) {
   constexpr double least = 0.1;
-  if (d_over_r0 >= least) return;
-  for (const char* key : {"seeing.d_over_r0", "seeing.fwhm", "seeing.fried_parameter"}) {
+  constexpr double greatest = 1e4;
+  if (d_over_r0 >= least && d_over_r0 <= greatest) return;
+  for (const auto& [key, unit] :
+       {std::pair("seeing.d_over_r0", ""), std::pair("seeing.fwhm", "; it is in arcsec"),
+        std::pair("seeing.fried_parameter", "; r0 has its unit: 12cm")}) {
     if (!configuration.is_set(key)) continue;
     throw InputError(key, configuration.value_text(key),
-                     fmt::format("a D/r0 of at least {:g}, this is {:.2g}; r0 has its unit: 12cm",
-                                 least, d_over_r0));
+                     fmt::format("a D/r0 from {:g} to {:g}, this is {:.2g}{}", least, greatest,
+                                 d_over_r0, unit));
+  }
+}
+
+/// Refuses what needs the servo lag where nothing says how fast the turbulence is.
+void require_wind(const Configuration& configuration,
+                  std::initializer_list<std::string_view> keys) {
+  if (configuration.is_set("objective.wind_speed") ||
+      configuration.is_set("objective.greenwood_frequency")) {
+    return;
+  }
+  for (const std::string_view key : keys) {
+    const std::string& text = configuration.value_text(key);
+    if (text.find("error_budget") == std::string::npos &&
+        text.find("servo_wfe") == std::string::npos) {
+      continue;
+    }
+    throw InputError(key, text,
+                     "needs objective.wind_speed or objective.greenwood_frequency, such as "
+                     "--objective.wind_speed 10");
   }
 }
 
@@ -285,6 +307,7 @@ std::vector<DesignMetric> trade_objectives_of(const Configuration& configuration
                        "model_seconds");
     }
   }
+  require_wind(configuration, {key});
   return objectives;
 }
 
@@ -321,7 +344,7 @@ std::vector<Seeing> seeings_of(const Configuration& configuration, const Telesco
   }
   std::vector<Seeing> seeings;
   for (const double fried_parameter : fried_parameters) {
-    refuse_no_turbulence(configuration, telescope.diameter / fried_parameter);
+    require_turbulence(configuration, telescope.diameter / fried_parameter);
     seeings.push_back({.fried_parameter = fried_parameter,
                        .outer_scale = configuration.optional_length("seeing.outer_scale")});
     seeings.back().validate();
@@ -412,6 +435,8 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
                                  "{}",
                                  configuration.value_text("objective.greenwood_frequency")));
   }
+  require_wind(configuration,
+               {"objective.kind", "objective.terms", "objective.penalties", "objective.limits"});
   cost.validate();
   return cost;
 }

@@ -137,9 +137,11 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
                  "sensor.planes = 4000km", "fewer samples reach farther");
   expect_refused("evaluate", {"--seeing.d_over_r0", "1e200"}, "seeing.d_over_r0 = 1e200", "10000");
   expect_refused("advise", {"--seeing.fried_parameter", "12"}, "seeing.fried_parameter = 12",
-                 "a D/r0 of at least 0.1, this is 0.042; r0 has its unit: 12cm");
-  expect_refused("evaluate", {"--seeing.fwhm", "1e9"},
-                 "seeing.fried_parameter = 1.0709928787729236e-10", "at least the diameter");
+                 "a D/r0 from 0.1 to 10000, this is 0.042; r0 has its unit: 12cm");
+  expect_refused("evaluate", {"--seeing.fwhm", "1e9"}, "seeing.fwhm = 1e9",
+                 "a D/r0 from 0.1 to 10000, this is 4.7e+09; it is in arcsec");
+  expect_refused("evaluate", {"--seeing.fried_parameter", "1nm"}, "seeing.fried_parameter = 1nm",
+                 "a D/r0 from 0.1 to 10000");
   expect_refused("scale", {}, "scale.diameter = (nothing)", "such as --scale.diameter 8.2m");
 }
 
@@ -285,7 +287,8 @@ TEST_F(BadInput, OfATrade) {
   expect_refused("trade", {"--trade.objectives", "total_wfe_nm,seconds"},
                  "trade.objectives = total_wfe_nm,seconds", "take model_seconds");
   expect_refused("trade", {"--trade.objectives", "error_budget_nm,plane_count"},
-                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+                 "trade.objectives = error_budget_nm,plane_count",
+                 "such as --objective.wind_speed 10");
   expect_refused("trade", {"--trade.reference", "100,0.5"}, "trade.reference = 100,0.5",
                  "4 numbers, one for each of trade.objectives, total_wfe_nm,model_seconds");
   expect_refused("trade", {"--trade.algorithm", "nsga"}, "trade.algorithm = nsga",
@@ -305,10 +308,11 @@ TEST_F(BadInput, OfATrade) {
 }
 
 TEST_F(BadInput, OfTheObjective) {
-  expect_refused("evaluate", {"--objective.kind", "error_budget"},
-                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+  expect_refused("evaluate", {"--objective.kind", "error_budget"}, "objective.kind = error_budget",
+                 "needs objective.wind_speed or objective.greenwood_frequency, such as "
+                 "--objective.wind_speed 10");
   expect_refused("optimize", {"--objective.limits", "servo_wfe_nm<20"},
-                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+                 "objective.limits = servo_wfe_nm<20", "needs objective.wind_speed or");
   expect_refused(
       "optimize", {"--objective.greenwood_frequency", "30", "--objective.wind_speed", "10"},
       "objective.wind_speed = 10", "only one of it and objective.greenwood_frequency, which is 30");
