@@ -104,7 +104,8 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::number,
        .default_text = "0",
        .description = "Diameter of the central obscuration as a fraction of D.",
-       .bounds = {.least = 0.0, .greatest = 1.0, .greatest_included = false}},
+       .bounds = {.least = 0.0, .greatest = 1.0, .greatest_included = false},
+       .example = "0.2"},
       {.name = "telescope.relay_beam_diameter",
        .kind = Kind::length,
        .description = "Beam diameter behind a relay; where set, distances on the bench are printed "
