@@ -1,5 +1,6 @@
 #include "model/sensor_design.hpp"
 
+#include "model/bound_text.hpp"
 #include "model/grid_width.hpp"
 #include "model/input_error.hpp"
 
@@ -29,8 +30,8 @@ void validate_planes(std::string_view key, const std::vector<double>& planes,
   for (const double plane : planes) {
     if (!(std::abs(plane) <= farthest)) {
       throw InputError(key, plane,
-                       fmt::format("distances within +-{:.6g} m, where the Fresnel number is {}",
-                                   farthest, min_fresnel_number));
+                       fmt::format("distances within +-{}, where the Fresnel number is {}",
+                                   bound_text(farthest), min_fresnel_number));
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "model/simulation.hpp"
 
+#include "model/bound_text.hpp"
 #include "model/gerchberg_saxton.hpp"
 #include "model/grid_width.hpp"
 #include "model/input_error.hpp"
@@ -266,9 +267,9 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
     const double reach = farthest * band.centre() / band.longest;
     if (std::abs(design.planes[plane]) <= reach) continue;
     throw InputError("sensor.planes", design.planes[plane],
-                     fmt::format("distances within +-{:.6g} m with simulation.pupil_samples = {}; "
+                     fmt::format("distances within +-{} with simulation.pupil_samples = {}; "
                                  "fewer samples reach farther",
-                                 reach, truth_samples));
+                                 bound_text(reach), truth_samples));
   }
   return design;
 }

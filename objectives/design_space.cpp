@@ -1,5 +1,6 @@
 #include "objectives/design_space.hpp"
 
+#include "model/bound_text.hpp"
 #include "model/grid_width.hpp"
 #include "model/input_error.hpp"
 
@@ -59,8 +60,9 @@ void require_distances(const std::string& key, const Domain& domain, bool both_s
   const double farthest = farthest_distance(telescope);
   const auto require_near_enough = [&](double z, const std::string& value) {
     if (std::abs(z) <= farthest) return;
-    throw InputError(key, value,
-                     fmt::format("within +-{:.6g} m, the farthest that a plane may be", farthest));
+    throw InputError(
+        key, value,
+        fmt::format("within +-{}, the farthest that a plane may be", bound_text(farthest)));
   };
   if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
     for (const double z : *list) {

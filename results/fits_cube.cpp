@@ -148,13 +148,15 @@ std::vector<FitsKeyword> axis_keywords(const std::vector<FitsAxis>& axes, int fi
 }
 
 FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key, FitsGaps gaps,
-                        FitsShape allowed) {
+                        FitsShape allowed, std::string_view what) {
+  if (what.empty()) {
+    what = allowed == FitsShape::square
+               ? "a FITS file whose first image is n x n x count (or n x n)"
+               : "a FITS file whose first image is columns x rows x planes (or with sets as fourth "
+                 "axis)";
+  }
   const auto refuse = [&](const std::string& why) {
-    throw InputError(key, path.string(),
-                     fmt::format("{}; allowed is a FITS file whose first image is {}", why,
-                                 allowed == FitsShape::square
-                                     ? "n x n x count (or n x n)"
-                                     : "columns x rows x planes (or with sets as fourth axis)"));
+    throw InputError(key, path.string(), fmt::format("{}; allowed is {}", why, what));
   };
   // Asked first, because CFITSIO would try the name with .gz and the like appended.
   std::error_code failure;

@@ -57,11 +57,13 @@ enum class FitsShape {
 
 /// Reads the image of a file's first HDU: as `allowed` says, where axes that are missing at the end
 /// count 1. The path is taken literally, without CFITSIO's extended file name syntax.
-/// @param key  the configuration key that named the file, for the error
+/// @param key   the configuration key that named the file, for the error
+/// @param what  is allowed, for the error; empty for what `allowed` says
 /// @throws InputError where the file is missing or unreadable, or its image has another shape or
 ///         values that are not finite
 FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
-                        FitsGaps gaps = FitsGaps::refused, FitsShape allowed = FitsShape::square);
+                        FitsGaps gaps = FitsGaps::refused, FitsShape allowed = FitsShape::square,
+                        std::string_view what = {});
 
 /// Writes 64-bit floating-point values with BUNIT and `keywords` in the header, on three axes or,
 /// where there are several sets, four. Until it is

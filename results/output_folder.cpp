@@ -18,8 +18,9 @@ namespace {
 bool make_folder(const std::filesystem::path& folder) {
   const auto check = [&](const std::error_code& failure) {
     if (!failure) return;
-    throw std::runtime_error(
-        fmt::format("cannot make the output folder {}: {}", folder.string(), failure.message()));
+    throw InputError(
+        "--output", folder.string(),
+        fmt::format("cannot be made ({}); name a folder where you may write", failure.message()));
   };
   std::error_code failure;
   if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), failure);

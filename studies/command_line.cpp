@@ -67,8 +67,9 @@ std::vector<std::string> usage_words(const Command& command) {
   const std::string shown = one_line(option);
   std::string_view word = std::string_view(shown).substr(0, shown.find('='));
   while (word.starts_with('-')) word.remove_prefix(1);
-  throw InputError("command line", shown,
-                   fmt::format("unknown option; did you mean --{}?", nearest_word(word, names)));
+  throw InputError(
+      "command line", shown,
+      fmt::format("unknown option{}", suggestion(word, names, "; nlcwfs manual lists all", "--")));
 }
 
 std::vector<po::option> parse_options(int argc, const char* const* argv,
@@ -93,6 +94,15 @@ std::vector<po::option> parse_options(int argc, const char* const* argv,
 /// Reads what is no option: the command, then its arguments.
 void parse_positional(const std::string& value, CommandLine& result,
                       const po::options_description& options) {
+  if (value == "-h" || (value == "help" && result.command.empty())) {
+    result.help = true;
+    return;
+  }
+  if (value.size() > 1 && value[0] == '-' && value[1] >= '0' && value[1] <= '9') {
+    throw InputError("command line", one_line(value),
+                     "values are one word, separated by commas, as in "
+                     "--sensor.planes=-180km,180km");
+  }
   if (value.starts_with('-')) refuse_unknown(value, options);
   if (!result.command.empty()) {
     const Command& command = command_of(result.command);
@@ -102,16 +112,20 @@ void parse_positional(const std::string& value, CommandLine& result,
                                    "word, such as 0.5m or -47km,47km",
                                    fmt::join(usage_words(command), " ")));
     }
-    if (value.empty()) throw InputError("command line", one_line(""), "a folder must have a name");
+    if (value.empty()) {
+      throw InputError(
+          command.arguments[result.arguments.size()], one_line(""),
+          fmt::format("must not be empty: nlcwfs {}", fmt::join(usage_words(command), " ")));
+    }
     result.arguments.push_back(value);
     return;
   }
   const auto names = command_names();
   if (std::ranges::count(names, value) == 0) {
     const std::string shown = one_line(value);
-    throw InputError("command", shown,
-                     fmt::format("one of {}; did you mean {}?", fmt::join(names, ", "),
-                                 nearest_word(shown, names)));
+    throw InputError("command line", shown,
+                     fmt::format("no command of nlcwfs, which has {}{}", fmt::join(names, ", "),
+                                 suggestion(shown, names, "; nlcwfs --help explains them")));
   }
   result.command = value;
 }
@@ -119,9 +133,10 @@ void parse_positional(const std::string& value, CommandLine& result,
 /// @throws InputError where the command or its arguments are missing, or it has no such flag
 void require_whole_command(const CommandLine& command_line) {
   if (command_line.command.empty()) {
-    throw InputError(
-        "command", one_line(""),
-        fmt::format("one of {}; nlcwfs --help explains them", fmt::join(command_names(), ", ")));
+    throw InputError("command line", one_line(""),
+                     fmt::format("a command must stand there, one of {}; nlcwfs --help explains "
+                                 "them",
+                                 fmt::join(command_names(), ", ")));
   }
   const Command& command = command_of(command_line.command);
   if (command_line.verify && command.name != "advise") {
@@ -137,8 +152,9 @@ void require_whole_command(const CommandLine& command_line) {
 }
 
 /// The configuration of the run to go on with.
-/// @param configured  whether the command line has more than that run's folder
-Configuration resumed_configuration(const CommandLine& command_line, bool configured) {
+/// @param configuring  the options that the command line has besides and must not have
+Configuration resumed_configuration(const CommandLine& command_line,
+                                    const std::vector<std::string>& configuring) {
   const std::filesystem::path& folder = *command_line.resume;
   const std::string shown = one_line(folder.string());
   const Command& command = command_of(command_line.command);
@@ -147,15 +163,19 @@ Configuration resumed_configuration(const CommandLine& command_line, bool config
                      fmt::format("{} cannot go on with a run; begin it anew with --config {}",
                                  command.name, one_line((folder / "config.cfg").string())));
   }
-  if (configured) {
-    throw InputError("--resume", shown,
-                     "goes on in that folder as its config.cfg says; nothing may be with it but "
-                     "--threads, --quiet and --log-level");
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError("--resume", shown, "there is no such folder; name that of an interrupted run");
   }
   if (!std::filesystem::is_regular_file(folder / "config.cfg") ||
       !std::filesystem::is_regular_file(folder / "archive.sqlite")) {
     throw InputError("--resume", shown,
                      "has no config.cfg and archive.sqlite; name the folder of an interrupted run");
+  }
+  if (!configuring.empty()) {
+    throw InputError("--resume", shown,
+                     fmt::format("goes on in that folder as its config.cfg says; leave away {}, "
+                                 "nothing may be with it but --threads, --quiet and --log-level",
+                                 fmt::join(configuring, ", ")));
   }
   Configuration configuration;
   configuration.read_file(folder / "config.cfg");
@@ -267,8 +287,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     values.emplace_back(form.key, list);
   }
   if (result.resume) {
-    const bool configured = preset || !files.empty() || !values.empty() || result.output;
-    result.configuration = resumed_configuration(result, configured);
+    std::vector<std::string> configuring;
+    if (preset) configuring.emplace_back("--preset");
+    if (!files.empty()) configuring.emplace_back("--config");
+    if (result.output) configuring.emplace_back("--output");
+    for (const auto& [key, value] : values) configuring.push_back("--" + key);
+    result.configuration = resumed_configuration(result, configuring);
     return result;
   }
   if (preset) result.configuration.apply_preset(*preset);

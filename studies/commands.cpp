@@ -128,7 +128,7 @@ const std::vector<Command>& commands() {
                 "held against what was measured there.",
        .keys = joined({site, {"frames", "sensor", "detector", "reconstruction"}}),
        .examples = {"nlcwfs reconstruct --frames frames.fits "
-                    "--sensor.planes=-180km,180km,-47km,47km --frames.background dark.fits"},
+                    "--sensor.planes=-120km,120km,-30km,30km --frames.background dark.fits"},
        .run = run_reconstruct},
       {.name = "screens",
        .group = one_design,

@@ -44,8 +44,13 @@ struct FinishedRun {
 FinishedRun finished_run(const std::string& argument, const std::string& command,
                          const std::filesystem::path& folder) {
   const std::string shown = one_line(folder.string());
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError(argument, shown,
+                     fmt::format("there is no such folder; name that of a finished {}", command));
+  }
   if (!std::filesystem::is_regular_file(folder / "config.cfg")) {
-    throw InputError(argument, shown, fmt::format("the folder of a finished {}", command));
+    throw InputError(argument, shown,
+                     fmt::format("has no config.cfg; name the folder of a finished {}", command));
   }
   if (!std::filesystem::is_regular_file(folder / "summary.json")) {
     throw InputError(argument, shown,

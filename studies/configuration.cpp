@@ -3,6 +3,7 @@
 #include "model/input_error.hpp"
 #include "studies/text.hpp"
 #include "studies/units.hpp"
+#include "studies/value_fault.hpp"
 
 #include <algorithm>
 #include <array>
@@ -165,7 +166,7 @@ std::string ConfigurationKey::allowed() const {
     case Kind::choice:
       return fmt::format("one of {}", fmt::join(choices, ", "));
     case Kind::text:
-      return fmt::format("one line of text without #{}", such_as);
+      return fmt::format("{} without #{}", is_file ? "a path" : "one line of text", such_as);
   }
   assert(false);
   return {};
@@ -261,7 +262,9 @@ void Configuration::apply_preset(std::string_view name) {
   if (preset == presets().end()) {
     std::vector<std::string> names;
     for (const Preset& known : presets()) names.push_back(known.name);
-    throw InputError("--preset", one_line(name), fmt::format("one of {}", fmt::join(names, ", ")));
+    throw InputError("--preset", one_line(name),
+                     fmt::format("{} {}", names.size() == 1 ? "the only one is" : "one of",
+                                 fmt::join(names, ", ")));
   }
   for (const auto& [key, value] : preset->values) set(key, value, "by --preset " + preset->name);
 }
@@ -285,6 +288,11 @@ void Configuration::read_file(const std::filesystem::path& path) {
   for (int number = 1; std::getline(file, line); ++number) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors write it
     if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    if (std::ranges::any_of(line, [](char c) { return is_control(c) && c != '\t' && c != '\r'; })) {
+      throw InputError(
+          "--config", name,
+          fmt::format("line {} is no text; give the path of a configuration file", number));
+    }
     std::istringstream lines(fmt::format("{}\n{}", header, line));
     std::vector<po::option> options;
     try {
@@ -320,12 +328,19 @@ void Configuration::set(std::string_view key, std::string_view value, std::strin
     std::vector<std::string> names;
     for (const ConfigurationKey& known : configuration_keys()) names.push_back(known.name);
     const std::string shown_key = one_line(key);
-    throw InputError(
-        shown_key, shown,
-        fmt::format("unknown key {}; did you mean {}?", source, nearest_word(shown_key, names)));
+    throw InputError(shown_key, shown,
+                     fmt::format("unknown key {}{}", source,
+                                 suggestion(shown_key, names, "; nlcwfs manual lists all keys")));
   }
   if (value.empty() || !row->accepts(value)) {
-    throw InputError(key, shown, fmt::format("{} ({})", row->allowed(), source));
+    const std::string fault = fault_of(*row, value);
+    throw InputError(
+        key, shown,
+        fmt::format("{}{}{} ({})", row->allowed(), fault.empty() ? "" : "; ", fault, source));
+  }
+  if (const std::string repeated = repeated_part(*row, value); !repeated.empty()) {
+    throw InputError(key, shown,
+                     fmt::format("each value once, but {} is twice ({})", repeated, source));
   }
   if (std::ranges::count(seeing_measures, key) > 0) {
     for (const std::string_view other : seeing_measures) {

@@ -58,7 +58,7 @@ struct ConfigurationKey {
   std::string description = {};           ///< what it means, one line
   std::string unit = {};                  ///< of a number; lengths and times have m and s
   Bounds bounds = {};                     ///< of every number in the value
-  std::vector<std::string> choices = {};  ///< the words of a choice
+  std::vector<std::string> choices = {};  ///< the words of a choice, or that a shell offers
   std::string example = {};               ///< for messages; the default where empty
   Kind element = Kind::number;            ///< of a domain's or axis's values: number, integer,
                                           ///< length, time or choice

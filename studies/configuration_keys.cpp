@@ -1,3 +1,5 @@
+#include "objectives/design_metric.hpp"
+#include "optimizer/nlopt_backend.hpp"
 #include "studies/configuration.hpp"
 
 #include <fmt/format.h>
@@ -90,6 +92,19 @@ void add_variations(std::vector<ConfigurationKey>& keys, const std::string& sect
   }
 }
 
+std::vector<std::string> metric_names() {
+  std::vector<std::string> names;
+  for (const DesignMetric& metric : design_metrics()) names.emplace_back(metric.name);
+  return names;
+}
+
+/// auto, and what stands alone or on either side of GLOBAL+LOCAL.
+std::vector<std::string> optimizer_names() {
+  std::vector<std::string> names{"auto", "dlib"};
+  for (const std::string_view name : nlopt_algorithms()) names.emplace_back(name);
+  return names;
+}
+
 std::vector<ConfigurationKey> make_keys() {
   std::vector<ConfigurationKey> keys{
       {.name = "telescope.diameter",
@@ -106,7 +121,8 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::number,
        .default_text = "0",
        .description = "Diameter of the central obscuration as a fraction of D.",
-       .bounds = {.least = 0.0, .greatest = 1.0, .greatest_included = false}},
+       .bounds = {.least = 0.0, .greatest = 1.0, .greatest_included = false},
+       .example = "0.2"},
       {.name = "telescope.relay_beam_diameter",
        .kind = Kind::length,
        .description = "Beam diameter behind a relay; where set, distances on the bench are printed "
@@ -221,8 +237,8 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "0",
        .description =
            "What the frames have without light, in their unit, which is subtracted: a number, or a "
-           "FITS file of one image for all planes, one for each, or as many as there are frames.",
-       .example = "100 or dark.fits",
+           "FITS file of one image, one for each plane or one for each frame.",
+       .example = "dark.fits",
        .is_file = true},
       {.name = "frames.bad_pixels",
        .kind = Kind::text,
@@ -404,17 +420,20 @@ std::vector<ConfigurationKey> make_keys() {
       {.name = "objective.terms",
        .kind = Kind::text,
        .description = "METRIC:WEIGHT, separated by commas: adds WEIGHT x the metric to the cost.",
+       .choices = metric_names(),
        .example = "latency_seconds:100,plane_count:0.05"},
       {.name = "objective.penalties",
        .kind = Kind::text,
        .description =
            "METRIC>BOUND:WEIGHT or METRIC<BOUND:WEIGHT, separated by commas: adds WEIGHT "
            "for each unit by which a screen's metric is above or below the bound.",
+       .choices = metric_names(),
        .example = "total_wfe_nm>30:0.1,captured_energy<0.9:10"},
       {.name = "objective.limits",
        .kind = Kind::text,
        .description = "METRIC<BOUND or METRIC>BOUND, separated by commas: what must hold for a "
                       "design's mean over the screens.",
+       .choices = metric_names(),
        .example = "latency_seconds<5e-3,field_strehl>0.9"},
       {.name = "objective.time_per_loop",
        .kind = Kind::time,
@@ -478,6 +497,7 @@ std::vector<ConfigurationKey> make_keys() {
        .description =
            "Orders in which a symmetric layout may be visited: plane numbers, where 1 is "
            "-z_near, 2 +z_near, 3 -z_far, 4 +z_far, 5 -z_third, 6 +z_third.",
+       .choices = {"all"},
        .example = "all or 3412,1234"},
       {.name = "search.optimizer",
        .kind = Kind::text,
@@ -488,6 +508,7 @@ std::vector<ConfigurationKey> make_keys() {
                       "direct_l, direct_l_rand, crs2, mlsl, isres, esch, dlib (the only one that "
                       "models discrete variables); local: sbplx, nelder_mead, bobyqa, cobyla, "
                       "praxis.",
+       .choices = optimizer_names(),
        .example = "direct_l+bobyqa"},
       {.name = "search.budget",
        .kind = Kind::integer,
@@ -575,6 +596,7 @@ std::vector<ConfigurationKey> make_keys() {
         .kind = Kind::orders,
         .description = "Orders in which a symmetric layout is visited, as search.order. Not set: "
                        "the order of sensor.planes.",
+        .choices = {"all"},
         .example = "all or 3412,1234"}});
   add_variations(keys, "sweep", Kind::axis);
   const std::vector<ConfigurationKey> others{
@@ -586,6 +608,7 @@ std::vector<ConfigurationKey> make_keys() {
            "of the section search, where these are defaults of trade: plane_count 2:5, "
            "pupil_pixels a quarter, a half and all of detector.pupil_pixels, relaxation -0.3:0.7, "
            "initial_guess flat,centroid, reconstruction_oversampling 1,2.",
+       .choices = metric_names(),
        .example = "total_wfe_nm,latency_seconds"},
       {.name = "trade.algorithm",
        .kind = Kind::choice,
@@ -676,7 +699,9 @@ std::vector<ConfigurationKey> make_keys() {
       {.name = "export.formats",
        .kind = Kind::text,
        .default_text = "csv,json,fits",
-       .description = "What export writes: comma-separated values, JSON, a FITS binary table."},
+       .description = "What export writes, one or more of csv (comma-separated values), json and "
+                      "fits (a binary table).",
+       .choices = {"csv", "json", "fits"}},
 
       {.name = "reproduce.figures",
        .kind = Kind::text,

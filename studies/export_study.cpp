@@ -30,8 +30,16 @@ Json evaluations_of(const std::filesystem::path& run) {
                                  "archive.sqlite",
                                  is_folder ? "has no archive.sqlite" : "there is no such file"));
   }
+  std::vector<ArchivedEvaluation> evaluations;
   try {
-    return evaluation_list(Archive::reopened(path).evaluations());
+    evaluations = Archive::reopened(path).evaluations();
+  } catch (const std::runtime_error&) {
+    throw InputError("RUN", shown,
+                     "is no archive of a run of this version; name the folder of a run, such as "
+                     "results/optimize-1");
+  }
+  try {
+    return evaluation_list(evaluations);
   } catch (const std::runtime_error& error) {
     throw InputError("RUN", shown,
                      fmt::format("is no archive of evaluations: {}", one_line(error.what())));
@@ -49,7 +57,10 @@ std::set<std::string> formats_of(const Configuration& configuration) {
     if (format != "csv" && format != "json" && format != "fits") {
       throw InputError("export.formats", one_line(text), "a list of csv, json and fits");
     }
-    formats.insert(format);
+    if (!formats.insert(format).second) {
+      throw InputError("export.formats", one_line(text),
+                       fmt::format("each value once, but {} is twice", format));
+    }
   }
   return formats;
 }

@@ -5,6 +5,8 @@
 #include "studies/program_options.hpp"
 #include "studies/text.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -59,7 +61,8 @@ std::string options_text(const Command& command) {
 std::string key_text(const ConfigurationKey& key) {
   std::string text = key.description;
   if (!key.unit.empty()) text += fmt::format(" In {}.", key.unit);
-  if (key.kind == Kind::choice) text += fmt::format(" {}.", fmt::join(key.choices, " | "));
+  if (key.kind == Kind::choice || key.element == Kind::choice)
+    text += fmt::format(" {}.", fmt::join(key.choices, " | "));
   const std::string bounds = key.bounds_text();
   if (!bounds.empty()) text += fmt::format(" Allowed: {}.", bounds);
   if (!key.default_text.empty()) text += fmt::format(" [{}]", key.default_text);
@@ -82,6 +85,20 @@ std::string keys_text(const Command& command) {
 
 std::string paragraph(const std::string& text) {
   return fmt::format("{}\n", fmt::join(wrapped(text, columns), "\n"));
+}
+
+/// What the names of values stand for that do not tell it themselves.
+std::string values_text(const Command& command) {
+  const auto reads = [&](std::string_view name) {
+    return std::ranges::any_of(configuration_keys(), [&](const ConfigurationKey& key) {
+      return command.reads(key.name) && value_name(key) == name;
+    });
+  };
+  std::string text;
+  if (reads("RANGE")) text += " RANGE is MIN:MAX, MIN:MAX:log or a list a,b,c.";
+  if (reads("GRID")) text += " GRID is MIN:MAX:N, MIN:MAX:N:log or a list a,b,c.";
+  if (reads("WORDS")) text += " WORDS are one or more words, separated by commas.";
+  return text;
 }
 
 /// "nlcwfs compare SWEEP OPTIMIZE".
@@ -123,7 +140,7 @@ std::string command_help(const Command& command) {
                                  with_capital(command.description));
   text += paragraph(command.about) + "\nExamples:\n";
   for (const std::string& example : command.examples) {
-    text += fmt::format("  {}\n", fmt::join(wrapped(example, columns - 6), " \\\n      "));
+    text += fmt::format("  {}\n", fmt::join(example_lines(example, columns - 6), " \\\n      "));
   }
   text += '\n' + options_text(command);
   if (command.keys.empty()) return text;
@@ -132,8 +149,24 @@ std::string command_help(const Command& command) {
                  "Keys that it reads [default], here or in a file of [section] and key = value "
                  "lines, where # starts a comment. The command line overrides files, files "
                  "override the preset. Lengths may be written in nm, um, mm, cm, m or km, times "
-                 "in us, ms, s, min or h; without a unit they are in m and s.");
+                 "in us, ms, s, min or h; without a unit they are in m and s." +
+                 values_text(command));
   return text + keys_text(command);
+}
+
+std::vector<std::string> example_lines(std::string_view example, std::size_t width) {
+  constexpr std::string_view option = " --";
+  std::vector<std::string> lines(1);
+  while (!example.empty()) {
+    const std::string_view part = example.substr(0, example.find(option, 1));
+    if (lines.back().empty() || lines.back().size() + part.size() <= width) {
+      lines.back() += part;
+    } else {
+      lines.emplace_back(part.substr(1));
+    }
+    example.remove_prefix(part.size());
+  }
+  return lines;
 }
 
 std::string with_takers(const ProgramOption& option) {

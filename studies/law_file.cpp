@@ -162,7 +162,6 @@ void read_lines(const Field& field, ScalingLaw& law) {
 
 LawFile law_file_of(const Json& json) {
   const Field root{"", json};
-  if (!json.is_object()) throw InputError("content", one_line(json.dump()), "a JSON object");
   root.with_members({"conditions", "data", "law"});
   LawFile file;
   file.conditions = conditions_of(root["conditions"]);
@@ -224,11 +223,14 @@ Json to_json(const LawFile& file) {
 }
 
 LawFile parse_law_file(std::string_view text, const std::string& name) {
-  try {
-    return law_file_of(Json::parse(text));
-  } catch (const Json::exception&) {
+  constexpr bool allow_exceptions = false;
+  const Json json = Json::parse(text, nullptr, allow_exceptions);
+  if (!json.is_object() || !(json.contains("conditions") || json.contains("data"))) {
     throw InputError("advise.law", one_line(name),
-                     "is no JSON; give the law.json that a run of law or advise left");
+                     "is no law file; give the law.json that a run of law or advise left");
+  }
+  try {
+    return law_file_of(json);
   } catch (const InputError& error) {
     throw InputError("advise.law", one_line(name), error.what());
   }

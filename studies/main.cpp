@@ -1,5 +1,6 @@
 #include "model/input_error.hpp"
 #include "results/output_folder.hpp"
+#include "studies/as_typed.hpp"
 #include "studies/command_line.hpp"
 #include "studies/commands.hpp"
 #include "studies/help_text.hpp"
@@ -23,18 +24,9 @@ namespace {
 
 enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 3 };
 
-void run(int argc, const char* const* argv) {
+/// Runs a command, or prints its configuration.
+void run(nlcwfs::CommandLine& command_line) {
   using namespace nlcwfs;
-  CommandLine command_line = parse_command_line(argc, argv);
-  if (command_line.version) {
-    fmt::print("nlcwfs {}\n", version());
-    return;
-  }
-  if (command_line.help) {
-    fmt::print("{}", command_line.command.empty() ? program_help()
-                                                  : command_help(command_of(command_line.command)));
-    return;
-  }
   scale_default_planes(command_line.configuration);
   if (command_line.command == "trade") set_trade_defaults(command_line.configuration);
   if (command_line.dump_config) {
@@ -48,6 +40,25 @@ void run(int argc, const char* const* argv) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   command_of(command_line.command).run(command_line);
+}
+
+void run(int argc, const char* const* argv) {
+  using namespace nlcwfs;
+  CommandLine command_line = parse_command_line(argc, argv);
+  if (command_line.version) {
+    fmt::print("nlcwfs {}\n", version());
+    return;
+  }
+  if (command_line.help) {
+    fmt::print("{}", command_line.command.empty() ? program_help()
+                                                  : command_help(command_of(command_line.command)));
+    return;
+  }
+  try {
+    run(command_line);
+  } catch (const InputError& error) {
+    throw as_typed(error, command_line.configuration);
+  }
 }
 
 }  // namespace

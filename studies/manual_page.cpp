@@ -68,7 +68,7 @@ std::string entry(std::string_view word, std::string_view values, std::string_vi
 
 std::string example(std::string_view command_line) {
   std::string lines;
-  for (const std::string& line : wrapped(command_line, columns)) {
+  for (const std::string& line : example_lines(command_line, columns)) {
     lines += (lines.empty() ? "    " : " \\e\n        ") + escaped(line);
   }
   return fmt::format(".nf\n{}\n.fi\n", lines);
@@ -157,7 +157,8 @@ std::string manual_page() {
          entry("2", "",
                "Bad input: one line on standard error names the key, the value, what is "
                "allowed and the fix.") +
-         entry("3", "", "Interrupted with Ctrl-C: what was done until then is in the folder.") +
+         entry("3", "",
+               "Interrupted with Ctrl-C or SIGTERM: what was done until then is in the folder.") +
          examples_text();
 }
 

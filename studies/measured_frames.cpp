@@ -29,10 +29,15 @@ FrameShape shape_of(const FitsCube& frames, const Configuration& configuration) 
                          .columns = frames.slices.front().cols(),
                          .planes = frames.slices.size() / frames.sets,
                          .sets = frames.sets};
+  if (configuration.source("sensor.planes").starts_with(Configuration().source("sensor.planes"))) {
+    throw InputError("sensor.planes", configuration.value_text("sensor.planes"),
+                     "these are the program's own; give those of your frames, such as "
+                     "--sensor.planes=-120km,120km,-30km,30km");
+  }
   const std::size_t planes = configuration.lengths("sensor.planes").size();
   if (shape.planes != planes) {
     throw InputError("frames.file", file,
-                     fmt::format("its third axis has {} planes, but sensor.planes has {}; give the "
+                     fmt::format("the number of its planes is {}, of sensor.planes {}; give the "
                                  "distance of each plane, in the file's order",
                                  shape.planes, planes));
   }
@@ -43,9 +48,10 @@ FrameShape shape_of(const FitsCube& frames, const Configuration& configuration) 
 class FrameSeries {
  public:
   /// @param most_sets  1, or as many as there are sets of frames
+  /// @param what       is allowed, for messages
   FrameSeries(const std::string& key, const std::string& file, const FrameShape& shape,
-              std::size_t most_sets)
-      : cube_(read_fits_cube(file, key, FitsGaps::allowed, FitsShape::frames)),
+              std::size_t most_sets, std::string_view what)
+      : cube_(read_fits_cube(file, key, FitsGaps::allowed, FitsShape::frames, what)),
         planes_(cube_.slices.size() / cube_.sets) {
     const Eigen::Index rows = cube_.slices.front().rows();
     const Eigen::Index columns = cube_.slices.front().cols();
@@ -150,10 +156,17 @@ MeasuredFrames measured_frames_of(const Configuration& configuration) {
   const std::string& background_text = configuration.text("frames.background");
   const std::optional<double> level = parse_number(background_text);
   std::optional<FrameSeries> backgrounds;
-  if (!level) backgrounds.emplace("frames.background", background_text, shape, shape.sets);
+  if (!level) {
+    backgrounds.emplace("frames.background", background_text, shape, shape.sets,
+                        "a number, or a FITS file of one image, one for each plane or one for each "
+                        "frame");
+  }
   const std::string& bad_file = configuration.text("frames.bad_pixels");
   std::optional<FrameSeries> bad_pixels;
-  if (!bad_file.empty()) bad_pixels.emplace("frames.bad_pixels", bad_file, shape, 1);
+  if (!bad_file.empty()) {
+    bad_pixels.emplace("frames.bad_pixels", bad_file, shape, 1,
+                       "a FITS file of one image, or one for each plane");
+  }
   const double saturation = configuration.optional_number("frames.saturation")
                                 .value_or(std::numeric_limits<double>::infinity());
 
@@ -194,7 +207,9 @@ void set_detector_window(Configuration& configuration, const MeasuredFrames& fra
   const bool is_default = configuration.source(key) == Configuration().source(key);
   if (!is_default && std::lround(configuration.number(key) * pupil_pixels) != frames.width()) {
     throw InputError(key, configuration.value_text(key),
-                     fmt::format("{} in frames.file: {}; leave it away", window, width));
+                     fmt::format("the frames are {:.6g} pupil diameters of detector.pupil_pixels "
+                                 "= {} wide; leave it away",
+                                 window, pupil_pixels));
   }
   configuration.set(key, fmt::format("{}", window), "by the width of the frames");
 }

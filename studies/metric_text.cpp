@@ -44,10 +44,9 @@ struct Entry {
     if (const DesignMetric* found = find_design_metric(name)) return *found;
     std::vector<std::string> names;
     for (const DesignMetric& known : design_metrics()) names.emplace_back(known.name);
-    throw InputError(
-        key, one_line(text),
-        fmt::format("there is no metric {}; did you mean {}? There are {}", one_line(name),
-                    nearest_word(one_line(name), names), fmt::join(names, ", ")));
+    throw InputError(key, one_line(text),
+                     fmt::format("there is no metric {}{} There are {}", one_line(name),
+                                 suggestion(one_line(name), names, "."), fmt::join(names, ", ")));
   }
 
   /// METRIC<BOUND or METRIC>BOUND: the side that it names.

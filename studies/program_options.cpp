@@ -87,9 +87,9 @@ std::string value_name(const ConfigurationKey& key) {
     case Kind::bands:
       return "BANDS";
     case Kind::domain:
-      return "MIN:MAX";
+      return key.element == Kind::choice ? "WORDS" : "RANGE";
     case Kind::axis:
-      return "MIN:MAX:N";
+      return key.element == Kind::choice ? "WORDS" : "GRID";
     case Kind::orders:
       return "ORDERS";
     case Kind::time:

@@ -465,11 +465,6 @@ void run_reconstruct(const CommandLine& given) {
   CommandLine command_line = given;
   Configuration& configuration = command_line.configuration;
   require_one_condition(configuration);
-  if (configuration.source("sensor.planes").starts_with(Configuration().source("sensor.planes"))) {
-    throw InputError("sensor.planes", configuration.value_text("sensor.planes"),
-                     "these are the program's own; give those of your frames, such as "
-                     "--sensor.planes=-180km,180km,-47km,47km");
-  }
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   const MeasuredFrames measured = measured_frames_of(configuration);

@@ -84,6 +84,8 @@ const std::vector<PageFiles>& page_files() {
 
 /// Of a text file; nothing where it cannot be read.
 std::optional<std::string> text_of(const Path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   return file.is_open() && !file.bad() ? std::optional(std::move(text)) : std::nullopt;
@@ -94,6 +96,10 @@ std::optional<std::string> text_of(const Path& path) {
 }
 
 Json summary_of(const Path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    refuse(folder, "there is no such folder; name that of a run that is done");
+  }
   const auto text = text_of(folder / "summary.json");
   if (!text) {
     refuse(folder, "has no summary.json that can be read; name the folder of a run that is done");

@@ -268,9 +268,16 @@ std::vector<std::string> figures_of(const Configuration& configuration) {
   boost::split(figures, text, [](char c) { return c == ','; });
   for (std::string& figure : figures) {
     figure = std::string(trimmed(figure));
-    if (std::ranges::count(reproduced_figures, figure) > 0) continue;
-    throw InputError("reproduce.figures", one_line(text),
-                     fmt::format("a list of {}", fmt::join(reproduced_figures, ", ")));
+    if (std::ranges::count(reproduced_figures, figure) == 0) {
+      throw InputError("reproduce.figures", one_line(text),
+                       fmt::format("a list of {}", fmt::join(reproduced_figures, ", ")));
+    }
+  }
+  for (const std::string& figure : figures) {
+    if (std::ranges::count(figures, figure) > 1) {
+      throw InputError("reproduce.figures", one_line(text),
+                       fmt::format("each value once, but {} is twice", figure));
+    }
   }
   return figures;
 }

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -26,11 +25,7 @@ using Json = nlohmann::ordered_json;
 
 /// The values of an axis; none where it is not set.
 std::vector<double> axis_of(const Configuration& configuration, std::string_view key) {
-  std::vector<double> values = configuration.axis(key).value_or(std::vector<double>{});
-  if (std::set(values.begin(), values.end()).size() < values.size()) {
-    throw InputError(key, configuration.value_text(key), "each number once");
-  }
-  return values;
+  return configuration.axis(key).value_or(std::vector<double>{});
 }
 
 /// In cycles per pupil diameter.

@@ -34,15 +34,11 @@ Value choice_of(const Configuration& configuration, std::string_view key,
 }
 
 /// A list of whole numbers, or all of a range.
-std::vector<int> whole_numbers(std::string_view key, const Domain& domain) {
+std::vector<int> whole_numbers(const Domain& domain) {
   std::vector<int> numbers;
   if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
     for (const double value : *list) {
-      const auto number = static_cast<int>(value);
-      if (std::ranges::count(numbers, number) > 0) {
-        throw InputError(key, number, "each number once");
-      }
-      numbers.push_back(number);
+      numbers.push_back(static_cast<int>(value));
     }
   } else {
     const auto& range = std::get<ValueRange>(domain);
@@ -182,14 +178,38 @@ std::vector<Condition> conditions_of(const Configuration& configuration, const T
 }
 
 /// At D/r0 = 0.1 a wavefront has a fortieth of a wave RMS (Noll): below, a unit was forgotten.
-void refuse_no_turbulence(const Configuration& configuration, const char* key, double d_over_r0) {
+void require_turbulence(const Configuration& configuration, double d_over_r0) {
   constexpr double least = 0.1;
-  if (d_over_r0 >= least) return;
-  throw InputError(
-      key, configuration.value_text(key),
-      fmt::format("a D/r0 of at least {:g}, this is {:.2g}; lengths without a unit are "
-                  "in m, such as 0.12 or 12cm",
-                  least, d_over_r0));
+  constexpr double greatest = 1e4;
+  // A ratio has no unit, and bounds of its own.
+  if (configuration.is_set("seeing.d_over_r0")) return;
+  if (d_over_r0 >= least && d_over_r0 <= greatest) return;
+  for (const auto& [key, unit] : {std::pair("seeing.fwhm", "; it is in arcsec"),
+                                  std::pair("seeing.fried_parameter", "; r0 has its unit: 12cm")}) {
+    if (!configuration.is_set(key)) continue;
+    throw InputError(key, configuration.value_text(key),
+                     fmt::format("a D/r0 from {:g} to {:g}, this is {:.2g}{}", least, greatest,
+                                 d_over_r0, unit));
+  }
+}
+
+/// Refuses what needs the servo lag where nothing says how fast the turbulence is.
+void require_wind(const Configuration& configuration,
+                  std::initializer_list<std::string_view> keys) {
+  if (configuration.is_set("objective.wind_speed") ||
+      configuration.is_set("objective.greenwood_frequency")) {
+    return;
+  }
+  for (const std::string_view key : keys) {
+    const std::string& text = configuration.value_text(key);
+    if (text.find("error_budget") == std::string::npos &&
+        text.find("servo_wfe") == std::string::npos) {
+      continue;
+    }
+    throw InputError(key, text,
+                     "needs objective.wind_speed or objective.greenwood_frequency, such as "
+                     "--objective.wind_speed 10");
+  }
 }
 
 }  // namespace
@@ -288,6 +308,7 @@ std::vector<DesignMetric> trade_objectives_of(const Configuration& configuration
                        "model_seconds");
     }
   }
+  require_wind(configuration, {key});
   return objectives;
 }
 
@@ -310,14 +331,11 @@ std::vector<Seeing> seeings_of(const Configuration& configuration, const Telesco
   } else {
     const double reference =
         configuration.optional_length("seeing.reference_wavelength").value_or(telescope.wavelength);
-    const bool is_fwhm = configuration.is_set("seeing.fwhm");
     const auto add = [&](double fried_parameter) {
       fried_parameters.push_back(
           scaled_fried_parameter(fried_parameter, reference, telescope.wavelength));
-      refuse_no_turbulence(configuration, is_fwhm ? "seeing.fwhm" : "seeing.fried_parameter",
-                           telescope.diameter / fried_parameters.back());
     };
-    if (is_fwhm) {
+    if (configuration.is_set("seeing.fwhm")) {
       for (const double fwhm : configuration.numbers("seeing.fwhm")) {
         add(fried_parameter_of_fwhm(fwhm, reference));
       }
@@ -327,6 +345,7 @@ std::vector<Seeing> seeings_of(const Configuration& configuration, const Telesco
   }
   std::vector<Seeing> seeings;
   for (const double fried_parameter : fried_parameters) {
+    require_turbulence(configuration, telescope.diameter / fried_parameter);
     seeings.push_back({.fried_parameter = fried_parameter,
                        .outer_scale = configuration.optional_length("seeing.outer_scale")});
     seeings.back().validate();
@@ -417,6 +436,8 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
                                  "{}",
                                  configuration.value_text("objective.greenwood_frequency")));
   }
+  require_wind(configuration,
+               {"objective.kind", "objective.terms", "objective.penalties", "objective.limits"});
   cost.validate();
   return cost;
 }
@@ -427,8 +448,7 @@ DesignSpace search_space_of(const Configuration& configuration, const Telescope&
       .base = std::move(base),
       .layout = choice_of<Layout>(configuration, "search.layout",
                                   {{"symmetric", Layout::symmetric}, {"free", Layout::free}}),
-      .plane_counts =
-          whole_numbers("search.plane_count", *configuration.domain("search.plane_count")),
+      .plane_counts = whole_numbers(*configuration.domain("search.plane_count")),
       .orders = configuration.orders("search.order")};
   for (const VisitingOrder& order : options.orders) {
     if (std::ranges::count(options.plane_counts, static_cast<int>(order.size())) > 0) continue;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -88,10 +87,6 @@ void GridBuilder::read_axes() {
 
 void GridBuilder::set_plane_counts() {
   std::vector<int>& counts = options_.plane_counts;
-  if (std::set(counts.begin(), counts.end()).size() < counts.size()) {
-    throw InputError("sweep.plane_count", configuration_.value_text("sweep.plane_count"),
-                     "each number once");
-  }
   if (!counts.empty()) return;
   auto count = static_cast<int>(options_.base.planes.size());
   if (count < 2 || count > 6) {

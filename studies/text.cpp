@@ -66,7 +66,9 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
   std::vector<std::string> lines;
   while (text.size() > width) {
     const auto space = text.rfind(' ', width);
-    const std::size_t end = space == std::string_view::npos || space == 0 ? width : space;
+    const auto comma = text.rfind(',', width - 1);
+    const std::size_t within = comma == std::string_view::npos ? width : comma + 1;
+    const std::size_t end = space == std::string_view::npos || space == 0 ? within : space;
     lines.emplace_back(text.substr(0, end));
     text.remove_prefix(end);
     if (text.starts_with(' ')) text.remove_prefix(1);
@@ -78,12 +80,25 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
   assert(!words.empty());
   const bool has_section = word.find('.') != std::string_view::npos;
-  return *std::ranges::min_element(words, {}, [&](const std::string& candidate) {
+  const auto compared = [&](std::string_view whole) {
+    return has_section ? whole : last_part(whole);
+  };
+  const auto distance_to = [&](const std::string& candidate) {
     const std::size_t last = distance(last_part(word), last_part(candidate));
     // A section that does not fit counts like a few wrong letters, however long it is.
     constexpr std::size_t wrong_section = 3;
     return has_section ? std::min(distance(word, candidate), last + wrong_section) : last;
-  });
+  };
+  const std::string& nearest = *std::ranges::min_element(words, {}, distance_to);
+  const std::size_t longer = std::max(word.size(), compared(nearest).size());
+  return 3 * distance_to(nearest) <= longer ? nearest : "";
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& words,
+                       std::string_view otherwise, std::string_view before) {
+  const std::string nearest = nearest_word(word, words);
+  return nearest.empty() ? std::string(otherwise)
+                         : fmt::format("; did you mean {}{}?", before, nearest);
 }
 
 std::string duration_text(double seconds) {

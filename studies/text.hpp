@@ -19,8 +19,8 @@ std::string without_controls(std::string_view text);
 /// one is "(nothing)".
 std::string one_line(std::string_view text);
 
-/// Lines of at most `width` characters, broken between words; a longer word is broken where it
-/// must.
+/// Lines of at most `width` characters, broken between words; a longer word is broken after a
+/// comma, or where it must.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
 /// "1 h 05 min", "2 min 10 s", "45 s".
@@ -28,8 +28,13 @@ std::string duration_text(double seconds);
 
 /// The word that a user most likely meant: the one with the smallest edit distance to `word`; the
 /// first among equals. A word without a dot is held against what stands behind the last dot
-/// (`diameter` means `telescope.diameter`), and an abbreviation is near what it abbreviates.
+/// (`diameter` means `telescope.diameter`), and an abbreviation is near what it abbreviates. Empty
+/// where more than a third of the longer word is different.
 /// @pre words is not empty
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
+
+/// "; did you mean <before><nearest word>?", or `otherwise` where no word is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& words,
+                       std::string_view otherwise, std::string_view before = "");
 
 }  // namespace nlcwfs

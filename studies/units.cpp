@@ -154,7 +154,6 @@ std::optional<Domain> parse_domain(std::string_view text, const ValueParser& par
 
 std::optional<std::vector<double>> parse_axis(std::string_view text,
                                               const ValueParser& parse_value) {
-  constexpr int most_places = 100000;
   const std::vector<std::string_view> parts = split(text, ':');
   if (parts.size() == 1) return parse_list(text, parse_value);
   if (parts.size() < 3 || parts.size() > 4) return std::nullopt;

@@ -47,6 +47,9 @@ using ValueParser = std::function<std::optional<double>(std::string_view)>;
 /// by commas.
 std::optional<Domain> parse_domain(std::string_view text, const ValueParser& parse_value);
 
+/// The most places that an axis may have.
+constexpr int most_places = 100000;
+
 /// Places on an axis: min:max:count (evenly spaced, both ends included) or min:max:count:log with
 /// min < max and a count of at least 2, or values separated by commas.
 std::optional<std::vector<double>> parse_axis(std::string_view text,

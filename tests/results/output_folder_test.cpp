@@ -90,17 +90,17 @@ TEST_F(OutputFolderTest, RefusesWhateverExistsAlready) {
 
 TEST_F(OutputFolderTest, NamesPathAndCauseWhereItCannotBeMade) {
   std::ofstream("file") << "a file";
-  EXPECT_THAT(
-      failure_of([] { OutputFolder("file/mine", "evaluate"); }),
-      AllOf(StartsWith("cannot make the output folder file/mine: "), HasSubstr("Not a directory")));
-  EXPECT_THAT(failure_of([] { OutputFolder("file/deep/er", "evaluate"); }),
-              StartsWith("cannot make the output folder file/deep/er: "));
+  EXPECT_EQ(message_of([] { OutputFolder("file/mine", "evaluate"); }),
+            "--output = file/mine: cannot be made (Not a directory); name a folder where you may "
+            "write");
+  EXPECT_THAT(message_of([] { OutputFolder("file/deep/er", "evaluate"); }),
+              StartsWith("--output = file/deep/er: cannot be made ("));
   // Not even root makes folders there.
-  EXPECT_THAT(failure_of([] { OutputFolder("/proc/mine", "evaluate"); }),
-              StartsWith("cannot make the output folder /proc/mine: "));
+  EXPECT_THAT(message_of([] { OutputFolder("/proc/mine", "evaluate"); }),
+              StartsWith("--output = /proc/mine: cannot be made ("));
   std::ofstream("results") << "a file";
-  EXPECT_THAT(failure_of([] { OutputFolder({}, "evaluate"); }),
-              StartsWith("cannot make the output folder results/evaluate-1: "));
+  EXPECT_THAT(message_of([] { OutputFolder({}, "evaluate"); }),
+              StartsWith("--output = results/evaluate-1: cannot be made ("));
 }
 
 TEST_F(OutputFolderTest, WritesFilesWhole) {

@@ -153,9 +153,11 @@ TEST_F(Advise, RefusesBadInputInOneLine) {
   expect_refused({"--advise.law", "missing.json"}, "advise.law = missing.json: cannot be read (");
   std::ofstream("empty.json") << "{}";
   expect_refused({"--advise.law", "empty.json"},
-                 "advise.law = empty.json: conditions = (nothing): is missing");
+                 "advise.law = empty.json: is no law file; give the law.json that a run of law");
+  expect_refused({"--seeing.d_over_r0", "10000"},
+                 "seeing.d_over_r0 = 10000: too far from the law's designs");
   expect_refused({"--seeing.d_over_r0", "0.01"},
-                 "seeing.d_over_r0 = 0.01: too far from the law's designs");
+                 "seeing.d_over_r0 = 0.01: a D/r0 from 0.1 to 10000");
   expect_refused({"--detector.pupil_pixels", "15"}, "detector.pupil_pixels = 15: ");
   expect_refused({"--verify", "--verify.seed", "1"}, "verify.seed = 1: another seed");
   expect_refused({"--verify", "--simulation.pupil_samples", "20"},

@@ -38,8 +38,8 @@ class BadInput : public Program {
 TEST_F(BadInput, OfTheCommandLine) {
   expect_refused("evaluate", {"--detector.pupil_pixel", "16"},
                  "command line = --detector.pupil_pixel", "did you mean --detector.pupil_pixels?");
-  expect_refused("optimise", {}, "command = optimise", "one of evaluate, ");
-  expect_refused("optimise", {}, "command = optimise", "; did you mean optimize?");
+  expect_refused("optimise", {}, "command line = optimise", "which has evaluate, ");
+  expect_refused("optimise", {}, "command line = optimise", "; did you mean optimize?");
   expect_refused("evaluate", {"optimize"}, "command line = optimize", "nothing may follow");
   expect_refused("evaluate", {"--telescope.diameter", "1.8", "m"}, "command line = m",
                  "a value is one word, such as 0.5m");
@@ -47,22 +47,23 @@ TEST_F(BadInput, OfTheCommandLine) {
                  "a value is one word, such as 0.5m or -47km,47km");
   expect_refused("evaluate", {"--screens.count"}, "screens.count = (nothing)", "a whole number");
   expect_refused("evaluate", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");
-  expect_refused("evaluate", {"--preset", "papr"}, "--preset = papr", "one of paper");
+  expect_refused("evaluate", {"--preset", "papr"}, "--preset = papr", "the only one is paper");
   expect_refused("evaluate", {"--source.bands", "600nm:500nm"}, "source.bands = 600nm:500nm",
                  "SHORTEST:LONGEST above 0");
   expect_refused("evaluate", {"--source.bands", "500nm:600nm,600nm:700nm"},
-                 "source.bands = 2 bands", "one for each of the 4 planes");
+                 "source.bands = 500nm:600nm,600nm:700nm", "one for each of the 4 planes");
   expect_refused("optimize", {"--source.division", "split"}, "source.division = split",
                  "source.bands must be set");
   expect_refused("evaluate", {"--source.bands", "500nm:600nm", "--source.weights", "1,2"},
-                 "source.weights = 2 weights", "one for each of the 20");
+                 "source.weights = 1,2", "one for each of the 20");
   expect_refused("reproduce", {"--reproduce.figures", "3,9"}, "reproduce.figures = 3,9",
                  "a list of 3, 4, 5");
   for (const Arguments& arguments : {Arguments{}, Arguments{"--quiet"}}) {
     const ProgramRun refused = run(arguments);
     EXPECT_EQ(refused.exit_code, 2);
     expect_one_line(refused);
-    EXPECT_THAT(refused.errors, HasSubstr("command = (nothing): one of evaluate"));
+    EXPECT_THAT(refused.errors,
+                HasSubstr("command line = (nothing): a command must stand there, one of evaluate"));
   }
 }
 
@@ -70,11 +71,12 @@ TEST_F(BadInput, OfAConfigurationFile) {
   expect_refused("evaluate", {"--config", "missing.cfg"}, "--config = missing.cfg", "No such file");
   std::filesystem::create_directory("folder");
   expect_refused("evaluate", {"--config", "folder"}, "--config = folder", "a directory");
-  std::ofstream("typo.cfg") << "[detector]\npixels_pupil = 3\n";
-  expect_refused("evaluate", {"--config", "typo.cfg"}, "detector.pixels_pupil = 3",
+  std::ofstream("typo.cfg") << "[detector]\npupil_pixls = 3\n";
+  expect_refused("evaluate", {"--config", "typo.cfg"}, "detector.pupil_pixls = 3",
                  "in typo.cfg, line 2; did you mean detector.pupil_pixels?");
   std::ofstream("garbage.cfg") << "\x01\x02 = \nnonsense";
-  expect_refused("evaluate", {"--config", "garbage.cfg"}, "?? = (nothing)", "unknown key");
+  expect_refused("evaluate", {"--config", "garbage.cfg"}, "--config = garbage.cfg",
+                 "line 1 is no text");
 }
 
 TEST_F(BadInput, OfSingleValues) {
@@ -95,7 +97,7 @@ TEST_F(BadInput, OfSingleValues) {
                  "above -1 and below 1");
   expect_refused("evaluate", {"--simulation.truth", "real"}, "simulation.truth = real",
                  "one of extended, matched");
-  expect_refused("evaluate", {"--detector.photons", "1e16"}, "detector.photons = 1e+16", "1e+15");
+  expect_refused("evaluate", {"--detector.photons", "1e16"}, "detector.photons = 1e16", "1e+15");
   expect_refused("evaluate", {"--reconstruction.max_loops", "10001"},
                  "reconstruction.max_loops = 10001", "from 1 to 10000");
 }
@@ -108,8 +110,8 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
   expect_refused(
       "evaluate",
       {"--detector.photons", "1e5", "--detector.photon_rate", "1e8", "--detector.exposure", "1ms"},
-      "detector.photon_rate = 100000000", "only one of it and detector.photons");
-  expect_refused("evaluate", {"--detector.photon_rate", "1e8"}, "detector.photon_rate = 100000000",
+      "detector.photon_rate = 1e8", "only one of it and detector.photons");
+  expect_refused("evaluate", {"--detector.photon_rate", "1e8"}, "detector.photon_rate = 1e8",
                  "needs detector.exposure");
   expect_refused("evaluate", {"--detector.pupil_pixels", "15"}, "detector.pupil_pixels = 15",
                  "an even number");
@@ -125,16 +127,16 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
   expect_refused("evaluate",
                  {"--simulation.truth", "matched", "--reconstruction.oversampling", "2"},
                  "reconstruction.oversampling = 2", "1 with a matched truth");
-  expect_refused("evaluate", {"--sensor.planes", "47km"}, "sensor.planes = 47000",
+  expect_refused("evaluate", {"--sensor.planes", "47km"}, "sensor.planes = 47km",
                  "at least 2 distances");
-  expect_refused("evaluate", {"--sensor.planes", "47km,5000km"}, "sensor.planes = 5000000",
-                 "Fresnel number is 0.1");
+  expect_refused("evaluate", {"--sensor.planes", "47km,5000km"}, "sensor.planes = 5000km",
+                 "distances within +-4699 km, where the Fresnel number is 0.1");
   expect_refused("evaluate", {"--telescope.central_obscuration", "0.99"},
                  "telescope.central_obscuration = 0.99", "leaves none of 16 x 16 samples");
   expect_refused("evaluate",
                  {"--detector.window", "1", "--simulation.pupil_samples", "8192", "--sensor.planes",
                   "47km,4000km"},
-                 "sensor.planes = 4000000", "fewer samples reach farther");
+                 "sensor.planes = 4000km", "fewer samples reach farther");
   expect_refused("evaluate", {"--seeing.d_over_r0", "1e200"}, "seeing.d_over_r0 = 1e200", "10000");
   expect_refused("optimize", {"--search.exposure", "1ms:2ms"}, "search.exposure = 1ms:2ms",
                  "nothing without detector.photon_rate");
@@ -145,10 +147,59 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
   expect_refused("optimize", {"--search.order", "12"}, "search.order = 12",
                  "an order of 4 planes, see search.plane_count");
   expect_refused("advise", {"--seeing.fried_parameter", "12"}, "seeing.fried_parameter = 12",
-                 "a D/r0 of at least 0.1, this is 0.042; lengths without a unit are in m, such as");
-  expect_refused("evaluate", {"--seeing.fwhm", "1e9"},
-                 "seeing.fried_parameter = 1.0709928787729236e-10", "at least the diameter");
+                 "a D/r0 from 0.1 to 10000, this is 0.042; r0 has its unit: 12cm");
+  expect_refused("evaluate", {"--seeing.fwhm", "1e9"}, "seeing.fwhm = 1e9",
+                 "a D/r0 from 0.1 to 10000, this is 4.7e+09; it is in arcsec");
+  expect_refused("evaluate", {"--seeing.fried_parameter", "1nm"}, "seeing.fried_parameter = 1nm",
+                 "a D/r0 from 0.1 to 10000");
   expect_refused("scale", {}, "scale.diameter = (nothing)", "such as --scale.diameter 8.2m");
+}
+
+TEST_F(BadInput, IsShownAsItIsTyped) {
+  expect_refused("evaluate", {"--sensor.planes", "1e9km, 47km"}, "sensor.planes = 1e9km", "");
+  expect_refused("evaluate", {"--detector.photons", "1e300"}, "detector.photons = 1e300", "");
+  expect_refused("sweep", {"--sweep.z1", "1km:2km:2"}, "sweep.z1 = 1km:2km:2", "is for");
+  expect_refused("optimize", {"--search.reconstruction_oversampling", "3"},
+                 "reconstruction.oversampling = 3", "multiple or a divisor");
+}
+
+TEST_F(BadInput, OfRangesSaysWhy) {
+  const auto expect_reason = [](const std::string& range, const std::string& why) {
+    expect_refused("sweep", {"--sweep.z_near", range}, "sweep.z_near = " + range,
+                   "such as 5km:100km:24; " + why + " (on the command line)");
+  };
+  expect_reason("60km:5km:3", "the minimum is not below the maximum");
+  expect_reason("5km:5km:3", "the minimum is not below the maximum");
+  expect_reason("5km:60km", "the count is missing");
+  expect_reason("5km:60km:1", "at least 2 values");
+  expect_reason("5km:60km:100000000", "at most 100000 values");
+  expect_reason("0:60km:3:log", "log needs a minimum above 0");
+  expect_refused("optimize", {"--search.z_near", "60km:5km"}, "search.z_near = 60km:5km",
+                 "; the minimum is not below the maximum (");
+  expect_refused("optimize", {"--search.order", "3412,1235"}, "search.order = 3412,1235",
+                 "; 1235: 4 planes have the numbers 1 to 4 (");
+  expect_refused("evaluate", {"--source.bands", "400:800"}, "source.bands = 400:800",
+                 "; without a unit it is in m (");
+  expect_refused("evaluate", {"--telescope.wavelength", "850"}, "telescope.wavelength = 850",
+                 "; without a unit it is in m (");
+}
+
+TEST_F(BadInput, OfListsThatRepeatAValue) {
+  const auto expect_twice = [](const std::string& command, const std::string& key,
+                               const std::string& list, const std::string& value) {
+    expect_refused(command, {"--" + key, list}, key + " = " + list,
+                   "each value once, but " + value + " is twice");
+  };
+  expect_twice("optimize", "seeing.d_over_r0", "4,8,4.0", "4");
+  expect_twice("optimize", "detector.photons", "1e4,10000", "1e4");
+  expect_twice("optimize", "search.z_near", "20km,20000m", "20km");
+  expect_twice("optimize", "search.initial_guess", "flat,flat", "flat");
+  expect_twice("optimize", "search.order", "3412,3412", "3412");
+  expect_twice("sweep", "sweep.z_near", "30km,30km", "30km");
+  expect_twice("law", "law.d_over_r0", "3,3,3,3", "3");
+  expect_twice("reproduce", "reproduce.figures", "3,3", "3");
+  // Planes may be equal.
+  done("evaluate", "equal", {"--sensor.planes", "30km,30km,-60km"});
 }
 
 TEST_F(BadInput, OfAResponse) {
@@ -157,7 +208,7 @@ TEST_F(BadInput, OfAResponse) {
   expect_refused("response", {"--response.frequencies", "5:1:3"}, "response.frequencies = 5:1:3",
                  "such as 1:16:16");
   expect_refused("response", {"--response.frequencies", "1,3,1"}, "response.frequencies = 1,3,1",
-                 "each number once");
+                 "each value once, but 1 is twice");
   expect_refused("response", {"--response.frequencies", "7.9,8"}, "response.frequencies = 8",
                  "below 8 cycles per pupil diameter, half of detector.pupil_pixels");
   expect_refused("response",
@@ -171,10 +222,10 @@ TEST_F(BadInput, OfAResponse) {
   expect_refused("response", {"--response.distances", "10km,-10km"},
                  "response.distances = 10km,-10km", "above 0");
   expect_refused("response", {"--response.distances", "10km,10000m"},
-                 "response.distances = 10km,10000m", "each number once");
-  expect_refused("response", {"--response.distances", "10km,5000km"},
-                 "response.distances = 5000000", "no pair of planes can be there");
-  expect_refused("response", {"--sensor.planes", "47km"}, "sensor.planes = 47000",
+                 "response.distances = 10km,10000m", "each value once");
+  expect_refused("response", {"--response.distances", "10km,5000km"}, "response.distances = 5000km",
+                 "no pair of planes can be there");
+  expect_refused("response", {"--sensor.planes", "47km"}, "sensor.planes = 47km",
                  "at least 2 distances");
   expect_refused("response", {"--simulation.pupil_samples", "40"}, "simulation.pupil_samples = 40",
                  "a multiple of detector.pupil_pixels");
@@ -209,22 +260,23 @@ TEST_F(BadInput, OfASearch) {
                  "min:max");
   expect_refused("optimize", {"--search.z_near", "-50km:-5km"}, "search.z_near = -50km:-5km",
                  "above 0");
-  expect_refused("optimize", {"--search.z_far", "50km:5000km"}, "search.z_far = 50000:5e+06",
-                 "the farthest that a plane may be");
+  expect_refused("optimize", {"--search.z_far", "50km:5000km"}, "search.z_far = 50km:5000km",
+                 "within +-4699 km, the farthest that a plane may be");
   expect_refused("optimize", {"--search.layout", "free", "--search.z1", "0:5km"},
-                 "search.z1 = 0:5000", "neither of them 0");
-  expect_refused("optimize", {"--search.z1", "5km:50km"}, "search.z1 = 5000:50000",
+                 "search.z1 = 0:5km", "neither of them 0");
+  expect_refused("optimize", {"--search.z1", "5km:50km"}, "search.z1 = 5km:50km",
                  "search.layout = free");
   expect_refused("optimize", {"--search.layout", "free", "--search.z_near", "5km:50km"},
-                 "search.z_near = 5000:50000", "search.layout = symmetric");
+                 "search.z_near = 5km:50km", "search.layout = symmetric");
   expect_refused("optimize", {"--search.layout", "free", "--search.z5", "5km:50km"},
-                 "search.z5 = 5000:50000", "4 planes, see search.plane_count");
-  expect_refused("optimize", {"--baseline.planes", "47km"}, "baseline.planes = 47000",
+                 "search.z5 = 5km:50km", "4 planes, see search.plane_count");
+  expect_refused("optimize", {"--baseline.planes", "47km"}, "baseline.planes = 47km",
                  "at least 2 distances");
-  expect_refused("optimize", {"--search.plane_count", "3,3"}, "search.plane_count = 3",
-                 "each number once");
+  expect_refused("optimize", {"--search.plane_count", "3,3"}, "search.plane_count = 3,3",
+                 "each value once");
   expect_refused("optimize", {"--search.order", "1224"}, "search.order = 1224",
-                 "orders of plane numbers");
+                 "orders of plane numbers separated by commas, such as all or 3412,1234; 1224: "
+                 "plane 2 is twice");
   expect_refused("optimize", {"--search.pupil_pixels", "16:64"}, "search.pupil_pixels = 16:64",
                  "a list");
   expect_refused("optimize",
@@ -245,7 +297,8 @@ TEST_F(BadInput, OfATrade) {
   expect_refused("trade", {"--trade.objectives", "total_wfe_nm,seconds"},
                  "trade.objectives = total_wfe_nm,seconds", "take model_seconds");
   expect_refused("trade", {"--trade.objectives", "error_budget_nm,plane_count"},
-                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+                 "trade.objectives = error_budget_nm,plane_count",
+                 "such as --objective.wind_speed 10");
   expect_refused("trade", {"--trade.reference", "100,0.5"}, "trade.reference = 100,0.5",
                  "4 numbers, one for each of trade.objectives, total_wfe_nm,model_seconds");
   expect_refused("trade", {"--trade.algorithm", "nsga"}, "trade.algorithm = nsga",
@@ -265,10 +318,11 @@ TEST_F(BadInput, OfATrade) {
 }
 
 TEST_F(BadInput, OfTheObjective) {
-  expect_refused("evaluate", {"--objective.kind", "error_budget"},
-                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+  expect_refused("evaluate", {"--objective.kind", "error_budget"}, "objective.kind = error_budget",
+                 "needs objective.wind_speed or objective.greenwood_frequency, such as "
+                 "--objective.wind_speed 10");
   expect_refused("optimize", {"--objective.limits", "servo_wfe_nm<20"},
-                 "objective.greenwood_frequency = (not set)", "objective.wind_speed");
+                 "objective.limits = servo_wfe_nm<20", "needs objective.wind_speed or");
   expect_refused(
       "optimize", {"--objective.greenwood_frequency", "30", "--objective.wind_speed", "10"},
       "objective.wind_speed = 10", "only one of it and objective.greenwood_frequency, which is 30");
@@ -371,15 +425,16 @@ TEST_F(BadInput, OfAnOutputFolderThatExists) {
   EXPECT_EQ(names_in("mine").size(), 1u);
 }
 
-TEST_F(BadInput, IsNotToBlameWhereTheOutputCannotBeWritten) {
+TEST_F(BadInput, OfAnOutputFolderThatCannotBeMade) {
   std::ofstream("file") << "in the way";
   // Not even root makes folders in /proc.
   for (const std::string folder : {"file/run", "/proc/run"}) {
-    const ProgramRun failed = run({"evaluate", "--config", "tiny.cfg", "--output", folder});
-    EXPECT_EQ(failed.exit_code, 1);
-    expect_one_line(failed);
-    EXPECT_THAT(failed.errors,
-                StartsWith("nlcwfs: failed: cannot make the output folder " + folder + ": "));
+    const ProgramRun refused = run({"evaluate", "--config", "tiny.cfg", "--output", folder});
+    EXPECT_EQ(refused.exit_code, 2);
+    expect_one_line(refused);
+    EXPECT_THAT(refused.errors,
+                AllOf(StartsWith("nlcwfs: --output = " + folder + ": cannot be made ("),
+                      HasSubstr("name a folder where you may write")));
   }
 }
 

@@ -108,15 +108,16 @@ TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
 
 TEST(CommandLine, AsksForACommand) {
   const std::string names = fmt::format("{}", fmt::join(command_names(), ", "));
-  const std::string message =
-      "command = (nothing): one of " + names + "; nlcwfs --help explains them";
+  const std::string message = "command line = (nothing): a command must stand there, one of " +
+                              names + "; nlcwfs --help explains them";
   EXPECT_EQ(parse_message({}), message);
   EXPECT_EQ(parse_message({"--quiet"}), message);
   EXPECT_EQ(message_of([] { parse_command_line(0, std::vector<const char*>{nullptr}.data()); }),
             message);
   EXPECT_EQ(parse_message({"optimise"}),
-            "command = optimise: one of " + names + "; did you mean optimize?");
-  EXPECT_THAT(parse_message({""}), StartsWith("command = (nothing): one of "));
+            "command line = optimise: no command of nlcwfs, which has " + names +
+                "; did you mean optimize?");
+  EXPECT_THAT(parse_message({""}), StartsWith("command line = (nothing): no command"));
 }
 
 TEST(CommandLine, NamesAStrayArgument) {
@@ -136,7 +137,7 @@ TEST(CommandLine, TakesTheArgumentsOfACommand) {
   EXPECT_THAT(
       parse_message({"compare", "a", "b", "c"}),
       StartsWith("command line = c: nothing may follow the command compare SWEEP OPTIMIZE "));
-  EXPECT_THAT(parse_message({"compare", "a", ""}), StartsWith("command line = (nothing): "));
+  EXPECT_THAT(parse_message({"compare", "a", ""}), StartsWith("OPTIMIZE = (nothing): "));
   EXPECT_TRUE(parse({"evaluate"}).arguments.empty());
 }
 
@@ -151,11 +152,36 @@ TEST(CommandLine, SuggestsTheNearestOption) {
   EXPECT_THAT(parse_message({"evaluate", "--outptu", "x"}), EndsWith("did you mean --output?"));
 }
 
+TEST(CommandLine, SuggestsNothingThatIsFar) {
+  EXPECT_EQ(parse_message({"evaluate", "--bogus"}),
+            "command line = --bogus: unknown option; nlcwfs manual lists all");
+  for (const char* word : {"bogus", "design"}) {
+    EXPECT_THAT(parse_message({word}), EndsWith("; nlcwfs --help explains them"));
+  }
+}
+
+TEST(CommandLine, TakesAWordOfHelp) {
+  EXPECT_TRUE(parse({"help"}).help);
+  EXPECT_TRUE(parse({"-h"}).help);
+  for (const std::vector<const char*>& words :
+       {std::vector{"help", "sweep"}, std::vector{"sweep", "-h"}}) {
+    const CommandLine help = parse(words);
+    EXPECT_TRUE(help.help);
+    EXPECT_EQ(help.command, "sweep");
+  }
+  EXPECT_THAT(parse_message({"help", "bogus"}), StartsWith("command line = bogus: no command"));
+}
+
+TEST(CommandLine, SaysThatAListIsOneWord) {
+  EXPECT_EQ(parse_message({"evaluate", "--sensor.planes", "180km", "-180km"}),
+            "command line = -180km: values are one word, separated by commas, as in "
+            "--sensor.planes=-180km,180km");
+}
+
 TEST(CommandLine, KnowsNeitherAbbreviationsNorShortOptions) {
   EXPECT_THAT(parse_message({"evaluate", "--telescope.diam", "5"}),
               EndsWith("--telescope.diam: unknown option; did you mean --telescope.diameter?"));
   EXPECT_THAT(parse_message({"evaluate", "--qui"}), EndsWith("did you mean --quiet?"));
-  EXPECT_EQ(parse_message({"-h"}), "command line = -h: unknown option; did you mean --help?");
   EXPECT_EQ(parse_message({"evaluate", "-q"}),
             "command line = -q: unknown option; did you mean --quiet?");
 }
@@ -233,11 +259,12 @@ TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
     std::vector<const char*> arguments{"sweep", "--resume", name.c_str()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_THAT(parse_message(arguments),
-                AllOf(StartsWith("--resume = "), HasSubstr("goes on in that folder")))
+                AllOf(StartsWith("--resume = "), HasSubstr("goes on in that folder"),
+                      HasSubstr(fmt::format("leave away {},", more.front()))))
         << more.front();
   }
-  EXPECT_THAT(parse_message({"sweep", "--resume", "no/such/folder"}),
-              StartsWith("--resume = no/such/folder: has no config.cfg and archive.sqlite; "));
+  EXPECT_THAT(parse_message({"sweep", "--resume", "no/such/folder", "--screens.count", "3"}),
+              StartsWith("--resume = no/such/folder: there is no such folder; "));
 }
 
 TEST(CommandLine, OnlySomeCommandsResume) {
@@ -263,7 +290,8 @@ TEST(CommandLine, PassesOnWhatTheConfigurationRefuses) {
   EXPECT_THAT(parse_message({"evaluate", "--telescope.diameter", "5parsec"}),
               AllOf(StartsWith("telescope.diameter = 5parsec: a length above 0"),
                     EndsWith("(on the command line)")));
-  EXPECT_EQ(parse_message({"evaluate", "--preset", "nature"}), "--preset = nature: one of paper");
+  EXPECT_EQ(parse_message({"evaluate", "--preset", "nature"}),
+            "--preset = nature: the only one is paper");
   EXPECT_THAT(parse_message({"evaluate", "--config", "/no/such.cfg"}),
               StartsWith("--config = /no/such.cfg: cannot be read"));
   EXPECT_THAT(parse_message({"evaluate", "--seeing.fwhm", "1", "--seeing.d_over_r0", "4"}),

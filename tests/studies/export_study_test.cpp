@@ -137,9 +137,10 @@ TEST_F(ExportStudy, RefusesWhatIsNoArchive) {
   std::filesystem::create_directory("empty");
   expect_refused("empty", "has no archive.sqlite");
   std::ofstream("text.sqlite") << "this is not a database at all, it is a text";
-  expect_refused("text.sqlite", "is no archive of evaluations");
+  expect_refused("text.sqlite", "is no archive of a run of this version; name the folder of a run");
   std::ofstream("nothing.sqlite") << "";
-  expect_refused("nothing.sqlite", "is no archive of evaluations");
+  expect_refused("nothing.sqlite",
+                 "is no archive of a run of this version; name the folder of a run");
   {
     Archive archive("broken.sqlite");
     archive.add({.stage = "search",

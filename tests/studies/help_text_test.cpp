@@ -82,6 +82,29 @@ TEST(HelpText, OfACommandHasItsOptionsAndKeysAlone) {
   }
 }
 
+TEST(HelpText, ExplainsTheNamesOfValues) {
+  const std::string trade = without_spaces(command_help(command_of("trade")));
+  EXPECT_THAT(trade,
+              AllOf(HasSubstr("--search.z_nearRANGE"), HasSubstr("search.initial_guessWORDS"),
+                    HasSubstr("RANGEisMIN:MAX,MIN:MAX:logoralist"), Not(HasSubstr("GRID"))));
+  const std::string sweep = without_spaces(command_help(command_of("sweep")));
+  EXPECT_THAT(sweep, AllOf(HasSubstr("--sweep.z_nearGRID"), HasSubstr("GRIDisMIN:MAX:N,"),
+                           Not(HasSubstr("RANGE"))));
+}
+
+TEST(HelpText, BreaksLongDefaultsAfterCommas) {
+  EXPECT_THAT(command_help(command_of("trade")),
+              AllOf(HasSubstr("detector_pixels,\n"), HasSubstr(" plane_count]\n")));
+}
+
+TEST(HelpText, BreaksExamplesBeforeOptions) {
+  using testing::ElementsAre;
+  EXPECT_THAT(example_lines("nlcwfs sweep --a.b 5km --c 2 --d", 20),
+              ElementsAre("nlcwfs sweep", "--a.b 5km --c 2 --d"));
+  EXPECT_THAT(example_lines("nlcwfs manual | man -l -", 5),
+              ElementsAre("nlcwfs manual | man -l -"));
+}
+
 TEST(Commands, HaveWhatTheHelpNeeds) {
   std::set<std::string> names;
   std::set<std::string> groups;

@@ -138,14 +138,14 @@ TEST(LawFile, IsRefusedWithTheNameOfTheField) {
                     HasSubstr("its value at D/r0 = 3 is inf")));
 }
 
-TEST(LawFile, IsRefusedWhereItIsNoJson) {
-  for (const std::string text : {"", "{", "nan", "{\"data\": 1e999}", "\x01\n\xFF"}) {
-    EXPECT_THAT(message_of([&] { parse_law_file(text, "my\nlaw"); }),
-                AllOf(StartsWith("advise.law = my?law: is no JSON; give "), Not(HasSubstr("\n"))))
+TEST(LawFile, IsRefusedWhereItIsNone) {
+  for (const std::string text :
+       {"", "{", "nan", "[]", "{\"command\": \"law\"}", "{\"data\": 1e999}", "\x01\n\xFF"}) {
+    EXPECT_THAT(
+        message_of([&] { parse_law_file(text, "my\nlaw"); }),
+        AllOf(StartsWith("advise.law = my?law: is no law file; give "), Not(HasSubstr("\n"))))
         << text;
   }
-  EXPECT_EQ(message_of([] { parse_law_file("[]", "law"); }),
-            "advise.law = law: content = []: a JSON object");
 }
 
 using LawFileOnDisk = ScratchFolder;

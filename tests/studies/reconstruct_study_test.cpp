@@ -274,14 +274,19 @@ TEST_F(Reconstruct, RefusesBadInput) {
   };
   expect_refused({planes_text}, "frames.file = (nothing)", "--frames frames.fits");
   expect_refused({"--frames", "frames.fits"}, "sensor.planes = -180km,180km,-47km,47km",
-                 "give those of your frames");
+                 "give those of your frames, such as --sensor.planes=-120km,120km,-30km,30km");
+  expect_refused({}, "frames.file = (nothing)", "--frames frames.fits");
+  expect_refused({"--frames", "missing.fits"}, "frames.file = missing.fits",
+                 "there is no such file");
   expect_refused({"--frames", "missing.fits", planes_text}, "frames.file = missing.fits",
                  "there is no such file");
   expect_refused({"--frames", "mine.cfg", planes_text}, "frames.file = mine.cfg",
                  "it cannot be read");
   expect_refused({"--frames", "frames.fits", "--sensor.planes=-47km,47km"},
-                 "frames.file = frames.fits", "has 4 planes, but sensor.planes has 2");
-  expect_refused(with({"--detector.window", "3"}), "detector.window = 3", "4 in frames.file");
+                 "frames.file = frames.fits", "the number of its planes is 4, of sensor.planes 2");
+  expect_refused(
+      with({"--detector.window", "3"}), "detector.window = 3",
+      "the frames are 4 pupil diameters of detector.pupil_pixels = 32 wide; leave it away");
   expect_refused(with({"--reconstruction.window", "3"}), "frames.file = frames.fits",
                  "set reconstruction.window, which is 3, to 4 or more");
   expect_refused(with({"--detector.pupil_pixels", "200"}), "frames.file = frames.fits",
@@ -297,7 +302,10 @@ TEST_F(Reconstruct, RefusesBadInput) {
   expect_refused(with({"--frames.background", "1e6"}), "frames.file = frames.fits",
                  "plane 1 of set 1 has no light");
   expect_refused(with({"--frames.background", "missing.fits"}), "frames.background = missing.fits",
-                 "there is no such file");
+                 "there is no such file; allowed is a number, or a FITS file of one image, one for "
+                 "each plane or one for each frame");
+  expect_refused(with({"--frames.bad_pixels", "missing.fits"}), "frames.bad_pixels = missing.fits",
+                 "allowed is a FITS file of one image, or one for each plane");
   write_fits_cube("small.fits", {"", {Image<double>::Zero(64, 64)}});
   expect_refused(with({"--frames.background", "small.fits"}), "frames.background = small.fits",
                  "as large as the frames, 128 x 128");

@@ -104,16 +104,20 @@ TEST_F(Report, SaysWhatItCannotRead) {
 }
 
 TEST_F(Report, RefusesWhatIsNoRunInOneLine) {
-  EXPECT_THAT(refusal("nowhere"), HasSubstr("DIR = nowhere: has no summary.json"));
+  EXPECT_THAT(refusal("nowhere"), HasSubstr("DIR = nowhere: there is no such folder"));
   std::filesystem::create_directory("run");
   EXPECT_THAT(refusal("run"), HasSubstr("DIR = run: has no summary.json"));
+  std::filesystem::create_directory("run/summary.json");
+  EXPECT_THAT(refusal("run"), HasSubstr("DIR = run: has no summary.json"));
+  std::filesystem::remove("run/summary.json");
   std::ofstream("run/summary.json") << "{\"command\": \"evaluate\"";
   EXPECT_THAT(refusal("run"), HasSubstr("no JSON object"));
   std::ofstream("run/summary.json") << "[1, 2]";
   EXPECT_THAT(refusal("run"), HasSubstr("no JSON object"));
   for (const char* command : {"\"bake\"", "17", "null", "\"report\\n\""}) {
     std::ofstream("run/summary.json") << "{\"command\": " << command << "}";
-    EXPECT_THAT(refusal("run"), AllOf(HasSubstr("of the command"), HasSubstr("evaluate, export, law")));
+    EXPECT_THAT(refusal("run"),
+                AllOf(HasSubstr("of the command"), HasSubstr("evaluate, export, law")));
   }
   std::ofstream("run/summary.json") << "{}";
   EXPECT_THAT(refusal("run"), HasSubstr("of the command"));

@@ -79,6 +79,12 @@ TEST_F(ShellCompletion, OffersTheWordsOfAChoice) {
               ElementsAre("extended", "matched", "periodic"));
   EXPECT_THAT(offered("nlcwfs evaluate --simulation.truth = m"), ElementsAre("matched"));
   EXPECT_THAT(offered("nlcwfs evaluate --preset ''"), ElementsAre("paper"));
+  EXPECT_THAT(offered("nlcwfs export --export.formats ''"), ElementsAre("csv", "json", "fits"));
+  EXPECT_THAT(offered("nlcwfs optimize --search.optimizer d"),
+              ElementsAre("dlib", "direct_l", "direct_l_rand"));
+  EXPECT_THAT(offered("nlcwfs optimize --search.order ''"), ElementsAre("all"));
+  EXPECT_THAT(offered("nlcwfs trade --trade.objectives plane"), ElementsAre("plane_count"));
+  EXPECT_THAT(offered("nlcwfs optimize --objective.limits lat"), ElementsAre("latency_seconds"));
   EXPECT_THAT(offered("nlcwfs reproduce --figure ''"), Contains("3"));
   EXPECT_THAT(offered("nlcwfs completion ''"), ElementsAre("bash", "zsh", "fish"));
   EXPECT_THAT(offered("nlcwfs evaluate --telescope.diameter ''"), IsEmpty());

@@ -320,10 +320,10 @@ TEST_F(SweepStudy, RefusesGridsThatCannotBe) {
            {{"--sweep.z_near", "1km:2km"}, "sweep.z_near = 1km:2km: min:max:count"},
            {{"--sweep.z_near", "0,1km"}, "sweep.z_near = 0,1km: "},
            {{"--sweep.plane_count", "2:4:3"}, "sweep.plane_count = 2:4:3: "},
-           {{"--sweep.plane_count", "4,4"}, "sweep.plane_count = 4,4: each number once"},
+           {{"--sweep.plane_count", "4,4"}, "sweep.plane_count = 4,4: each value once"},
            {{"--sweep.plane_count", "7"}, "sweep.plane_count = 7: "},
-           {{"--sweep.z1", "1km,2km"}, "sweep.z1 = 1000,2000: is for sweep.layout = free"},
-           {{"--sweep.z_third", "1km,2km"}, "sweep.z_third = 1000,2000: there are at most 4"},
+           {{"--sweep.z1", "1km,2km"}, "sweep.z1 = 1km,2km: is for sweep.layout = free"},
+           {{"--sweep.z_third", "1km,2km"}, "sweep.z_third = 1km,2km: there are at most 4"},
            {{"--sweep.plane_count", "4,6"}, "sweep.z_third = not set: sensor.planes has no such"},
            {{"--sweep.plane_count", "4,6", "--sweep.z_third", "9km"},
             "sweep.order = not set: sensor.planes has no such order of 6 planes"},
@@ -339,7 +339,7 @@ TEST_F(SweepStudy, RefusesGridsThatCannotBe) {
            {{"--sweep.relaxation", "0,0.5", "--sweep.relaxation_end", "0.1"},
             "sweep.relaxation = 0,0.5: either relaxation, or"},
            {{"--sweep.z_near", "1km:2km:1001", "--sweep.z_far", "1km:2km:1000"},
-            "sweep.z_near = 1001 values: with the other axes the grid has 1.001e+06 points"}}) {
+            "sweep.z_near = 1km:2km:1001: with the other axes the grid has 1.001e+06 points"}}) {
     Arguments all{"sweep", "--output", "run"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const ProgramRun finished = run(all);

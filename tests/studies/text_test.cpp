@@ -33,6 +33,13 @@ TEST(Text, NearestWordFindsTheFewestWrongLetters) {
   for (const std::string& command : commands) EXPECT_EQ(nearest_word(command, commands), command);
 }
 
+TEST(Text, NoWordIsNearestWhereMoreThanAThirdIsWrong) {
+  const std::vector<std::string> words{"response", "sweep", "loops", "source.bands"};
+  for (const char* word : {"design", "bogus", "foo"}) EXPECT_EQ(nearest_word(word, words), "");
+  EXPECT_EQ(suggestion("foo", words, "; ask"), "; ask");
+  EXPECT_EQ(suggestion("bans", words, "; ask", "--"), "; did you mean --source.bands?");
+}
+
 TEST(Text, NearestWordKnowsSectionsAndAbbreviations) {
   const std::vector<std::string> keys{"help",          "telescope.diameter", "seeing.d_over_r0",
                                       "seeing.fwhm",   "screens.seed",       "search.seed",
@@ -54,6 +61,7 @@ TEST(Text, WrappedBreaksBetweenWordsAndLongWordsWhereItMust) {
   EXPECT_THAT(wrapped("one two three", 7), ElementsAre("one two", "three"));
   EXPECT_THAT(wrapped("one two three", 8), ElementsAre("one two", "three"));
   EXPECT_THAT(wrapped("abcdefgh ij", 5), ElementsAre("abcde", "fgh", "ij"));
+  EXPECT_THAT(wrapped("one,two,three", 9), ElementsAre("one,two,", "three"));
   EXPECT_THAT(wrapped("", 5), ElementsAre(""));
 }
 

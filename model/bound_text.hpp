@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+
+/// A greatest distance for messages, rounded down so that it is allowed itself: "4699 km".
+/// @param distance  m, above 0
+inline std::string bound_text(double distance) {
+  const double kilometres = distance / 1e3;
+  const double last_digit = std::pow(10.0, std::floor(std::log10(kilometres)) - 3.0);
+  return fmt::format("{:.4g} km", std::floor(kilometres / last_digit) * last_digit);
+}
+
+}  // namespace nlcwfs
