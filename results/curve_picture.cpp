@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -41,6 +42,23 @@ std::string axis(std::string_view name, const std::vector<Curve>& curves,
   }
   if (is_logarithmic && !drawn.empty()) return logarithmic_axis(name, drawn);
   return fmt::format("set {}tics out nomirror\n", name);
+}
+
+/// A step of 1, 2 or 5 times a power of ten that has about five places in the narrow panel that
+/// these curves stand in.
+double panel_step(const std::vector<Curve>& curves) {
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -least;
+  for (const Curve& curve : curves) {
+    for (const double x : curve.x) {
+      least = std::min(least, x);
+      greatest = std::max(greatest, x);
+    }
+  }
+  const double rough = (greatest - least) / 5.0;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double digit = rough / power;
+  return (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0) * power;
 }
 
 /// What a picture's curves and axes are drawn with.
@@ -104,6 +122,10 @@ std::optional<std::string> write_picture(const std::string& title,
   for (const CurvePicture& picture : pictures) {
     DrawnCurves drawn(picture);
     if (drawn.plots.empty()) continue;
+    const double step = panel_step(picture.curves);
+    if (!picture.has_log_x && step > 0.0) {
+      drawn.settings += fmt::format("set xtics {}\n", step);
+    }
     panels.push_back(
         {fmt::format("set title {}\n", gnuplot_text(picture.title)) + std::move(drawn.settings),
          std::move(drawn.plots)});

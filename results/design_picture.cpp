@@ -84,13 +84,23 @@ std::optional<std::string> write_design_picture(const std::string& title,
   }
   const double top = 1.2 * window + (std::ranges::max(lanes) + 1) * lane_height;
 
-  // The edge of the geometric beam, and of the light that seeing of FWHM 0.98 lambda / r0 spreads.
+  // The edge of the geometric beam, and of the light that seeing of FWHM 0.98 lambda / r0 spreads,
+  // as far as the picture goes: gnuplot fills areas beyond it wrongly.
+  const double bottom = -1.1 * window;
+  const double slope = 0.49 * telescope.wavelength / fried_parameter * km;
+  std::vector<double> corners{first, 0.0, last};
+  for (const double edge : {-bottom, top}) {
+    const double reached = (edge - radius) / slope;
+    if (-reached > first) corners.push_back(-reached);
+    if (reached < last) corners.push_back(reached);
+  }
+  std::ranges::sort(corners);
   std::string beam;
   std::string shadow;
-  for (const double place : {first, 0.0, last}) {
-    const double spread =
-        radius + 0.49 * telescope.wavelength / fried_parameter * std::abs(place) * km;
-    beam += fmt::format("{} {} {} {} {}\n", place, -spread, spread, -radius, radius);
+  for (const double place : corners) {
+    const double spread = radius + slope * std::abs(place);
+    beam += fmt::format("{} {} {} {} {}\n", place, std::max(-spread, bottom), std::min(spread, top),
+                        -radius, radius);
     shadow += fmt::format("{} {} {}\n", place, -radius * telescope.central_obscuration,
                           radius * telescope.central_obscuration);
   }
@@ -101,7 +111,7 @@ std::optional<std::string> write_design_picture(const std::string& title,
       fmt::format(
           "set xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel 'distance from the pupil, km'\n"
           "set ylabel 'across the beam, m'\nset xtics out nomirror\nset ytics out nomirror\n",
-          first, last, -1.1 * window, top);
+          first, last, bottom, top);
   if (telescope.relay_beam_diameter) {
     const double first_m = bench_distance(first * km, telescope);
     const double last_m = bench_distance(last * km, telescope);

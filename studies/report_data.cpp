@@ -248,9 +248,16 @@ void Gathering::add_configuration() {
     configuration.read_file(folder_ / "config.cfg");
     const Telescope telescope = telescope_of(configuration);
     const Seeing seeing = seeing_of(configuration, telescope);
-    data_["telescope"] = telescope_line(telescope, seeing);
+    const auto command = data_.at("command").get<std::string>();
     data_["diameter_m"] = telescope.diameter;
-    data_["talbot_m"] = talbot_distance(seeing.fried_parameter, telescope.wavelength);
+    // Measured frames come with the seeing that they come with, and a law is for any.
+    if (command == "reconstruct" || command == "law") {
+      data_["telescope"] = fmt::format("{:.4g} m telescope at {}", telescope.diameter,
+                                       format_length(telescope.wavelength));
+    } else {
+      data_["telescope"] = telescope_line(telescope, seeing);
+      data_["talbot_m"] = talbot_distance(seeing.fried_parameter, telescope.wavelength);
+    }
     const Json& summary = data_.at("summary");
     if (!summary.contains("front")) return;
     data_["front_configurations"] = front_configurations(summary.at("front"), configuration);

@@ -6,6 +6,7 @@
 #include "studies/units.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -31,6 +32,13 @@ std::string reached(const Json& design, std::string_view screens) {
                      performance.at("screens").get<int>(), screens);
 }
 
+/// A number without more digits than timings hold, and without an exponent.
+std::string two_digits(double value) {
+  const double unit = value < 100.0 ? 1.0 : std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return value < 100.0 ? fmt::format("{:.2g}", value)
+                       : fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
 std::string of_evaluate(const Json& summary) {
   const Json& design = summary.at("design");
   return fmt::format("{} planes: {}; {:.3g} % of the reconstructions converged.",
@@ -44,10 +52,12 @@ std::string of_optimize(const Json& summary) {
   const std::size_t conditions = best.contains("conditions") ? best.at("conditions").size() : 1;
   const std::size_t screens = best.at("performance").at("screens").get<std::size_t>() /
                               std::max<std::size_t>(conditions, 1);
-  return baseline_verdict_text(
-      improvement({number_from_json(gain.at("cost")), number_from_json(gain.at("standard_error"))},
-                  screens),
-      mean_from_json(summary.at("baseline").at("cost")).mean);
+  return fmt::format(
+      "Best design: {}. {}", reached(best, "fresh screens"),
+      baseline_verdict_text(improvement({number_from_json(gain.at("cost")),
+                                         number_from_json(gain.at("standard_error"))},
+                                        screens),
+                            mean_from_json(summary.at("baseline").at("cost")).mean));
 }
 
 std::string of_sweep(const Json& summary) {
@@ -61,7 +71,8 @@ std::string of_trade(const Json& summary) {
     return !design.at("dominated").get<bool>() && number_from_json(design.at("violation")) == 0.0;
   });
   std::string text = fmt::format(
-      "Of {} designs that were tried, {} are verified on fresh screens and {} stand there. ",
+      "Of {} designs that were tried, {} are verified on fresh screens, and {} of them stay on the "
+      "front there. ",
       summary.at("evaluations").get<int>(), front.size(), standing);
   if (summary.at("knee").is_null()) return text + "None keeps objective.limits: there is no front.";
   const auto knee = summary.at("knee").get<std::size_t>();
@@ -95,11 +106,12 @@ std::string of_convergence(const Json& summary) {
 std::string of_response(const Json& summary) {
   const Json& frequencies = summary.at("cycles_per_pupil");
   const Json& shares = summary.at("design").at("response").at("recovered_share");
-  std::string text = "Recovered of a sinusoid: ";
+  std::string text = "Recovered share of a sinusoid: ";
   for (const std::size_t i : {std::size_t{0}, frequencies.size() - 1}) {
     text +=
-        fmt::format("{}{} at {:g} cycles per pupil", i == 0 ? "" : ", ",
-                    with_error(mean_from_json(shares.at(i))), number_from_json(frequencies.at(i)));
+        fmt::format("{}{} at {:g} {} per pupil", i == 0 ? "" : ", ",
+                    with_error(mean_from_json(shares.at(i))), number_from_json(frequencies.at(i)),
+                    number_from_json(frequencies.at(i)) == 1.0 ? "cycle" : "cycles");
     if (frequencies.size() == 1) break;
   }
   return text + '.';
@@ -115,7 +127,7 @@ std::string of_law(const Json& summary) {
 std::string of_advise(const Json& summary) {
   const Json& predicted = summary.at("predicted");
   std::string text =
-      fmt::format("Predicted: residual WFE {} nm after {} loops",
+      fmt::format("Predicted: residual WFE {} nm after {} fractional loops",
                   figure(predicted, "residual_wfe_nm"), figure(predicted, "fractional_loops"));
   if (summary.at("design").contains("performance")) {
     text += fmt::format(". Simulated: {}", reached(summary.at("design"), "fresh screens"));
@@ -141,11 +153,11 @@ std::string of_screens(const Json& summary) {
 
 std::string of_benchmark(const Json& summary) {
   const Json& timing = summary.at("timing");
-  return fmt::format(
-      "{:.2g} loops per second in double precision, {:.2g} in single, on {} threads.",
-      number_from_json(timing.at("double").at("loops_per_second")),
-      number_from_json(timing.at("single").at("loops_per_second")),
-      timing.at("threads").get<int>());
+  const int threads = timing.at("threads").get<int>();
+  return fmt::format("{} loops per second in double precision, {} in single, on {} thread{}.",
+                     two_digits(number_from_json(timing.at("double").at("loops_per_second"))),
+                     two_digits(number_from_json(timing.at("single").at("loops_per_second"))),
+                     threads, threads == 1 ? "" : "s");
 }
 
 std::string of_export(const Json& summary) {
@@ -155,12 +167,15 @@ std::string of_export(const Json& summary) {
 
 std::string of_reconstruct(const Json& summary) {
   const Json& consistency = summary.at("consistency");
+  const double misfit = number_from_json(consistency.at("misfit"));
   return fmt::format(
-      "A wavefront of {} nm RMS after {} loops. Measured and predicted images {}: in plane {} they "
-      "differ most, by {:.2g} % beyond what noise explains.",
+      "A wavefront of {} nm RMS after {} loops. Measured and predicted images {}: {}.",
       figure(summary, "wavefront_rms_nm"), figure(summary, "loops"),
-      consistency.at("verdict").get<std::string>(), consistency.at("worst_plane").get<int>(),
-      100.0 * number_from_json(consistency.at("misfit")));
+      consistency.at("verdict").get<std::string>(),
+      misfit > 0.0 ? fmt::format("in plane {} they differ most, by {:.2g} % beyond what noise "
+                                 "explains",
+                                 consistency.at("worst_plane").get<int>(), 100.0 * misfit)
+                   : "noise explains all their differences");
 }
 
 std::string of_reproduce(const Json& summary) {

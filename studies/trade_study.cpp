@@ -125,9 +125,10 @@ std::string front_table(const TradeSearch& task, const TradeResult& result) {
 /// Total WFE against model time, whatever the objectives are.
 ScatterPicture front_picture(const TradeSearch& task, const TradeResult& result) {
   ScatterPicture picture{
-      .title = fmt::format("Front of {:.4g} m at {}, D/r0 = {:.4g}, on fresh screens",
-                           task.telescope.diameter, format_length(task.telescope.wavelength),
-                           task.telescope.diameter / task.seeing.fried_parameter),
+      .title = fmt::format(
+          "Front of {:.4g} m at {}, D/r0 = {:.4g}, on fresh screens; pale: bettered there",
+          task.telescope.diameter, format_length(task.telescope.wavelength),
+          task.telescope.diameter / task.seeing.fried_parameter),
       .x_label = "model time of a reconstruction, ms",
       .y_label = "total wavefront error, nm",
       .marked = result.knee,

@@ -26,7 +26,8 @@ const printedWidth = 680;
 
 function axisStyle(theme, axis = {}) {
   return {color: theme.text, gridcolor: theme.grid, zerolinecolor: theme.grid, linecolor: theme.faint,
-    automargin: true, ticks: "outside", tickcolor: theme.faint, exponentformat: "power", ...axis,
+    automargin: true, ticks: "outside", tickcolor: theme.faint, exponentformat: "power",
+    minexponent: 5, ...axis,
     title: {standoff: 8, ...axis.title}};
 }
 
@@ -148,11 +149,11 @@ function isLogarithmic(values) {
   return spread(values.map(Math.log)) < spread(values);
 }
 
-/** 1, 2, 5, 10, ... within a range. */
-function roundNumbers(least, greatest) {
+/** 1, 2, 5, 10, ... within a range, or other steps of each decade. */
+function roundNumbers(least, greatest, steps = [1, 2, 5]) {
   const numbers = [];
   for (let power = Math.floor(Math.log10(least)); power <= Math.log10(greatest); ++power) {
-    for (const step of [1, 2, 5]) {
+    for (const step of steps) {
       const number = step * 10 ** power;
       if (number >= least * 0.999 && number <= greatest * 1.001) numbers.push(number);
     }
@@ -160,13 +161,17 @@ function roundNumbers(least, greatest) {
   return numbers;
 }
 
-/** A linear axis, or a logarithmic one with round numbers on it where it is of few decades. */
+/** A linear axis, or a logarithmic one with round numbers on it. */
 function scale(isLog, values) {
   const positive = values.filter((value) => value > 0);
   if (!isLog || positive.length === 0) return {type: isLog ? "log" : "linear"};
   const [least, greatest] = [Math.min(...positive), Math.max(...positive)];
-  if (greatest > 300 * least) return {type: "log", dtick: 1};
-  const numbers = roundNumbers(least / 2, 2 * greatest);
+  if (greatest < 3 * least) return {type: "log"};
+  const decades = Math.log10(greatest / least);
+  if (decades > 8) return {type: "log", dtick: Math.ceil(decades / 8)};
+  // Beyond the values too: bars of errors may reach there.
+  const numbers = roundNumbers(least / 10, 10 * greatest,
+    decades > 2.5 ? [1] : decades > 1 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 7]);
   return {type: "log", tickvals: numbers, ticktext: numbers.map((number) => digits(number))};
 }
 

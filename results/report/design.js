@@ -19,7 +19,7 @@ function designDrawing(parent, design, caption = "") {
   const telling = (plane, i) => [
     `plane ${i + 1}: ${length(plane)}`,
     `${digits(design.planes_talbot[i])} Talbot distances`,
-    `Fresnel number ${digits(design.fresnel_numbers[i])}`,
+    `Fresnel number ${digits(design.fresnel_numbers[i], 3)}`,
     captured ? `${digits(100 * captured[i])} % of the light captured` : null,
   ].filter((line) => line !== null).join("<br>");
 
@@ -29,10 +29,10 @@ function designDrawing(parent, design, caption = "") {
     the detector windows. The numbers say in which order the loop visits the planes, from the pupil
     and back to it.${told}`.trim(), (theme) => {
     const vertical = (x, height, line) => ({type: "line", x0: x / size, x1: x / size, y0: -height,
-      y1: height, line, layer: "below"});
+      y1: height, line, layer: "between"});
     const shapes = [
       {type: "rect", x0: -reach / size, x1: reach / size, y0: -diameter / 2, y1: diameter / 2,
-        fillcolor: theme.lines[5], opacity: 0.18, line: {width: 0}, layer: "below"},
+        fillcolor: theme.lines[0], opacity: 0.15, line: {width: 0}, layer: "below"},
       vertical(0, diameter / 2, {color: theme.text, width: 5}),
       ...planes.map((plane) => vertical(plane, half, {color: theme.lines[0], width: 2})),
     ];
@@ -52,13 +52,13 @@ function designDrawing(parent, design, caption = "") {
         {type: "scatter", mode: "markers+text", x: planes.map((z) => z / size),
           y: planes.map((_, i) => level(i + 1)), text: planes.map((_, i) => String(i + 1)),
           customdata: planes.map(telling), hovertemplate: "%{customdata}<extra></extra>",
-          marker: {size: 24, color: theme.back, line: {color: theme.lines[0], width: 2}},
+          cliponaxis: false, marker: {size: 24, color: theme.back, line: {color: theme.lines[0], width: 2}},
           textfont: {color: theme.text, size: 13}},
       ],
       layout: {showlegend: false, shapes, annotations, margin: {l: 50, r: 16, t: 24, b: 44},
         xaxis: {title: {text: `distance along the beam, ${unit}`},
           range: [-reach / size, reach / size]},
-        yaxis: {title: {text: "height, m"}, range: [-1.15 * half, 1.15 * half]}},
+        yaxis: {title: {text: "height, m"}, range: [-1.3 * half, 1.15 * half]}},
     };
   }, 300);
 }
@@ -99,7 +99,7 @@ function conditionsTable(design) {
   if (!design.conditions) return null;
   return table(["under each condition", ...["residual_wfe_nm", "total_wfe_nm",
     "fractional_loops"].map(label)],
-  design.conditions.map((condition) => [condition.name,
+  design.conditions.map((condition) => [typeset(condition.name),
     ...["residual_wfe_nm", "total_wfe_nm", "fractional_loops"].map((metric) =>
       withError(condition.performance[metric]))]));
 }

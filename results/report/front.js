@@ -22,11 +22,11 @@ function showTrade(summary) {
     return;
   }
   section("Front", (part) => showFront(part, summary));
-  section("Best within bounds", (part) => showBests(part, summary));
+  section("Best within limits", (part) => showBests(part, summary));
   section("Quality of the front", (part) => part.append(element("p", {},
     `The front dominates ${digits(100 * summary.hypervolume_fraction, 3)} % of the room between the best
     conceivable values and the reference point (${Object.entries(summary.reference_point)
-      .map(([name, value]) => `${shortLabel(name)} ${digits(value)}`).join("; ")}).`)));
+      .map(([name, value]) => `${label(name)}: ${digits(value)}`).join("; ")}).`)));
   if (summary.knee !== null) showCloserLook(summary.front[summary.knee]);
 }
 
@@ -53,6 +53,7 @@ function showFront(part, summary) {
   const stands = (design) => !design.dominated && design.violation === 0;
   const build = (theme) => {
     const symbols = ["circle", "square", "diamond", "triangle-up", "triangle-down", "star"];
+    const symbolOf = (pixels) => symbols[pixelCounts.indexOf(pixels) % symbols.length];
     const pixelCounts = [...new Set(front.map((design) => design.pupil_pixels))].sort((a, b) => a - b);
     const indices = front.map((_, i) => i).filter((i) => keeps(front[i]));
     const quantity = (name, i) => quantities[name](front[i]);
@@ -71,11 +72,11 @@ function showFront(part, summary) {
     const traces = planeCounts.flatMap((planes, k) => {
       const those = indices.filter((i) => front[i].planes_m.length === planes);
       const marker = (subset) => ({size: 11, color: theme.lines[k % theme.lines.length],
-        symbol: subset.map((i) => symbols[pixelCounts.indexOf(front[i].pupil_pixels) % symbols.length]),
+        symbol: subset.map((i) => symbolOf(front[i].pupil_pixels)),
         line: {color: theme.back, width: 1}});
       const standing = those.filter((i) => stands(front[i]));
       const others = those.filter((i) => !stands(front[i]));
-      const dominated = points(others, `${planes} planes, bettered`, marker(others), 0.3);
+      const dominated = points(others, `${planes} planes, bettered`, marker(others), 0.4);
       return [points(standing, `${planes} planes`, marker(standing), 1), {...dominated, showlegend: false}];
     }).filter((trace) => trace.x.length > 0);
     const ring = (i, name, symbol, size) => ({type: "scatter", mode: "markers", name, hoverinfo: "skip",
@@ -88,7 +89,8 @@ function showFront(part, summary) {
       traces.unshift({...ring(chosen.design, "shown", "square-open", 27), showlegend: false});
     }
     count.textContent = `${indices.length} of ${front.length} designs shown. Colours: planes; symbols:
-      pixels across the pupil (${pixelCounts.join(", ")}); pale: bettered on the fresh screens.`;
+      pixels across the pupil (${pixelCounts.map((pixels) =>
+      `${symbolOf(pixels).replace("-", " ")} ${pixels}`).join(", ")}); pale: bettered on the fresh screens.`;
     const axis = (name, isLog) => ({title: {text: plain(label(name))},
       ...scale(isLog, indices.map((i) => quantity(name, i).mean))});
     return {data: traces, layout: {xaxis: axis(chosen.x, chosen.isLogX),
@@ -157,11 +159,11 @@ function showFront(part, summary) {
 function showBests(part, summary) {
   const first = summary.objectives[0];
   for (const [name, bests] of Object.entries(summary.best_within)) {
-    part.append(table([`${label(name)} within`, label(first), "planes", "pixels", "design"],
+    part.append(table([`limit on ${label(name)}`, label(first), "planes", "pixels", "design"],
       bests.map(({bound, design}) => {
         const best = summary.front[design];
         return [digits(bound), withError(best.objectives[first]), best.planes_m.length,
           best.pupil_pixels, design];
-      }), `Best ${shortLabel(first)} where ${shortLabel(name)} is bounded`));
+      }), `Best ${shortLabel(first)} within a limit on ${shortLabel(name)}`));
   }
 }

@@ -30,8 +30,8 @@ function imageChart(parent, caption, {rows, places, quantity, colours, range}) {
   chart(parent, caption, () => ({
     data: [{type: "heatmap", z: rows, x: places, y: places, colorscale: colours, zmin: range[0],
       zmax: range[1], zsmooth: false, hoverongaps: false,
-      hovertemplate: `x %{x:.4g} m, y %{y:.4g} m<br>${plain(quantity)} %{z:.4g}<extra></extra>`,
-      colorbar: {orientation: "h", thickness: 9, y: -0.16, yanchor: "top", len: 0.95, nticks: 5,
+      hovertemplate: `x %{x:.4~g} m, y %{y:.4~g} m<br>${plain(quantity)} %{z:.4~g}<extra></extra>`,
+      colorbar: {orientation: "h", thickness: 9, y: -0.16, yanchor: "top", len: 0.95, nticks: 5, tickangle: 0,
         title: {text: plain(quantity), side: "bottom", font: {size: 11}}}}],
     layout: {margin: {l: 44, r: 8, t: 6, b: 70},
       xaxis: {constrain: "domain", showgrid: false, zeroline: false, nticks: 5, title: {text: "x, m"}},
@@ -91,7 +91,8 @@ function showCloserLook(design) {
     if (!images && !phases) continue;
     section(kind === "typical" ? "A typical screen" : "The worst screen", (part) => {
       if (look?.[kind]) {
-        part.append(element("p", {}, `Screen ${look[kind].screen}: residual WFE
+        const under = look[kind].condition ? ` under ${typeset(look[kind].condition)}` : "";
+        part.append(element("p", {}, `Screen ${look[kind].screen}${under}: residual WFE
           ${digits(look[kind].residual_wfe_nm)} nm after ${look[kind].loops} loops
           (${kind === "typical" ? "the median of the screens" : "the greatest of all screens"}).`));
       }
@@ -116,7 +117,7 @@ function showLoops(part) {
   chart(part, "Residual wavefront error after each loop, until the loop stopped.", (theme) => ({
     data: ["typical", "worst"].map((kind, i) => ({type: "scatter", mode: "lines+markers",
       name: `${kind} screen`, x: loops.loop, y: loops[`${kind}_residual_wfe_nm`],
-      line: {color: theme.lines[i]}, hovertemplate: "loop %{x}: %{y:.4g} nm"})),
+      line: {color: theme.lines[i]}, hovertemplate: "loop %{x}: %{y:.4~g} nm"})),
     layout: {xaxis: {title: {text: "loops"}},
       yaxis: {...scale(true, [...loops.typical_residual_wfe_nm, ...loops.worst_residual_wfe_nm]),
         title: {text: "residual WFE, nm"}}},

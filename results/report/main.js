@@ -46,6 +46,10 @@ function showHead() {
   if (data.verdict) head.append(element("p", {className: "verdict"}, typeset(data.verdict)));
   head.append(element("p", {className: "faint"},
     `nlcwfs ${data.command}, version ${data.version}; the run's summary is of ${data.written}.`));
+  if (data.summary.interrupted) {
+    head.append(element("p", {className: "note"},
+      "The run was interrupted: the results are of what was done by then."));
+  }
   for (const note of data.notes) head.append(element("p", {className: "note"}, note));
 }
 
@@ -57,18 +61,24 @@ function showConfigurations() {
   const design = data.design_configuration;
   if (design) {
     section(`Configuration of ${ends[data.command] ?? "this design"}`, (part) => part.append(
-      element("p", {}, `As it is in ${design.file}: nlcwfs evaluate --config ${design.file} tries it.`),
+      element("p", {}, `As it is in ${design.file}: `,
+        element("code", {}, `nlcwfs evaluate --config ${design.file}`), " tries it."),
       copyable(withoutComments(design.text))));
   }
   if (data.configuration) {
     section("Configuration of the run", (part) => part.append(
-      element("p", {}, "Every key with its value: --config config.cfg repeats the run."),
+      element("p", {}, "Every key with its value: ", element("code", {}, "--config config.cfg"),
+        " repeats the run."),
       folded("config.cfg", copyable(data.configuration))));
   }
 }
 
+/** Without comments and the sections that have nothing else. */
 function withoutComments(text) {
-  return text.split("\n").filter((line) => line && !line.startsWith("#")).join("\n") + "\n";
+  const lines = text.split("\n").filter((line) => line && !line.startsWith("#"));
+  const isHead = (line) => line === undefined || line.startsWith("[");
+  return lines.filter((line, i) => !(isHead(line) && isHead(lines[i + 1])))
+    .map((line, i) => (isHead(line) && i > 0 ? `\n${line}` : line)).join("\n") + "\n";
 }
 
 const pages = {

@@ -28,9 +28,13 @@ function showScreenMetrics(part) {
   const made = chart(place, "", (theme) => ({
     data: [{type: "bar", x: screens.screen, y: screens[chosen.metric],
       marker: {color: screens.converged.map((converged) => theme.lines[converged ? 0 : 1])},
-      hovertemplate: "screen %{x}: %{y:.5g}<extra></extra>"}],
+      hovertemplate: "screen %{x}: %{y:.5~g}<extra></extra>"}],
     layout: {xaxis: {title: {text: "screen"}}, yaxis: {title: {text: plain(label(chosen.metric))}}},
   }), 280);
+  if (screens.converged.some((converged) => !converged)) {
+    part.append(element("p", {className: "faint"}, `Orange or red: the loop had not converged when it
+      reached the most loops that it may take.`));
+  }
 }
 
 function showOptimization(summary) {
@@ -65,7 +69,7 @@ function showRanking(part, ranking, of) {
 
 function verdictOf(design) {
   const more = design.cost_above_best ? ` ${withError(design.cost_above_best)} more` : "";
-  return design.verdict === "tied" ? `a tie:${more}` : `${design.verdict ?? ""}${more}`;
+  return `${design.verdict === "tied" ? "a tie" : design.verdict ?? ""}${more && ":"}${more}`;
 }
 
 /** Every design that was tried, in order. */
@@ -80,12 +84,18 @@ function showHistory(part, summary) {
     const counts = search.cost[i] !== null && !isGivenUp(i) && keepsLimits(i);
     lowest.push(counts && (before === null || search.cost[i] < before) ? search.cost[i] : before);
   }
+  // With room above the points for the names of the stages.
+  const costs = search.cost.filter((cost) => cost !== null);
+  const isLog = isWide(costs);
+  const [least, greatest] = [Math.min(...costs), Math.max(...costs)]
+    .map((cost) => (isLog ? Math.log10(cost) : cost));
+  const range = [least - 0.06 * (greatest - least), greatest + 0.35 * (greatest - least)];
   const planesOf = (i) => search.planes_m[i].split(",").map((z) => length(Number(z))).join(", ");
   const points = (name, chosen, marker) => {
     const those = search.evaluation.map((_, i) => i).filter((i) => search.cost[i] !== null && chosen(i));
     return {type: "scatter", mode: "markers", name, marker, x: those.map((i) => search.evaluation[i]),
       y: those.map((i) => search.cost[i]), text: those.map((i) => plain(planesOf(i))),
-      hovertemplate: "design %{x}: cost %{y:.4g}<br>%{text}<extra></extra>"};
+      hovertemplate: "design %{x}: cost %{y:.4~g}<br>%{text}<extra></extra>"};
   };
   chart(part, "The cost of every design that was tried, on the search's own screens, and the lowest so far.",
     (theme) => {
@@ -106,10 +116,10 @@ function showHistory(part, summary) {
         ].filter((trace) => trace.x.length > 0),
         layout: {
           xaxis: {title: {text: "designs tried"}},
-          yaxis: {...scale(isWide(search.cost), search.cost), title: {text: "cost"}},
+          yaxis: {...scale(isLog, costs), ...(greatest > least ? {range} : {}), title: {text: "cost"}},
           shapes: starts.slice(1).map(({x}) => ({type: "line", x0: x, x1: x, yref: "paper", y0: 0,
             y1: 1, line: {color: theme.faint, width: 1, dash: "dot"}})),
-          annotations: starts.filter((start) => start.share > 0.04).map(({name, x}) => ({x, y: 1, yref: "paper", xanchor: "left",
+          annotations: starts.filter((start) => start.share > 0.065).map(({name, x}) => ({x, y: 1, yref: "paper", xanchor: "left",
             yanchor: "top", text: plain(name), textangle: 90, showarrow: false,
             font: {size: 10, color: theme.faint}})),
         },
@@ -153,7 +163,7 @@ function showSensitivity(part, summary) {
         error_y: errorBars(rows.map((i) => moved.cost_difference_standard_error[i])),
         line: {color: theme.faint, width: 1},
         marker: {size: 8, color: rows.map((i) => theme.lines[moved.is_worse[i] === 1 ? 1 : 0])},
-        hovertemplate: `%{x:.4g} ${plain(unitName)}: %{y:.3g} more<extra></extra>`}],
+        hovertemplate: `%{x:.4~g}${unitName && " "}${plain(unitName)}: %{y:.3~g} more<extra></extra>`}],
       layout: {
         xaxis: {title: {text: plain(shortLabel(name) + (unitName ? `, ${unitName}` : ""))}},
         yaxis: {title: {text: "cost above the best"}, zeroline: true, zerolinecolor: theme.text},

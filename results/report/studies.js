@@ -2,15 +2,16 @@
 
 // The pages of the smaller commands.
 
-/** Lines with their standard errors or spreads. @param curves [{name, x, y, errors, colour, isPale}] */
+/** Lines with their standard errors or spreads. @param curves [{name, x, y, errors, colour, isPale, isDashed, isPoints}] */
 function lineTraces(theme, curves) {
-  return curves.map(({name, x, y, errors, colour = 0, isPale = false, isDashed = false}) => ({
-    type: "scatter", mode: isPale || isDashed ? "lines" : "lines+markers", name: plain(name ?? ""),
+  return curves.map(({name, x, y, errors, colour = 0, isPale = false, isDashed = false,
+    isPoints = false}) => ({type: "scatter",
+    mode: isPoints ? "markers" : isPale || isDashed ? "lines" : "lines+markers", name: plain(name ?? ""),
     showlegend: Boolean(name), x, y, error_y: errors ? errorBars(errors) : undefined,
-    opacity: isPale ? 0.35 : 1,
+    opacity: isPale ? 0.5 : 1,
     line: {color: theme.lines[colour % theme.lines.length], width: isPale ? 1 : 2,
       dash: isDashed ? "dash" : "solid"},
-    hovertemplate: `%{x:.5g}: %{y:.5g}<extra>${plain(name ?? "")}</extra>`}));
+    hovertemplate: `%{x:.5~g}: %{y:.5~g}<extra>${plain(name ?? "")}</extra>`}));
 }
 
 /** Columns of a table whose rows have this word in a column. */
@@ -62,11 +63,11 @@ function responseCharts(part, columns) {
         {name: "recovered share", x: design.cycles_per_pupil, y: design.recovered_share,
           errors: errorsOf("recovered_share")},
         {name: "Talbot contrast, 1/rad", x: design.cycles_per_pupil, y: design.talbot_contrast_per_rad,
-          colour: 2, isDashed: true},
+          colour: 2, isPoints: true},
         {name: "effective contrast, 1/rad", x: design.cycles_per_pupil,
           y: design.effective_contrast_per_rad, colour: 1, isDashed: true}]),
       layout: {xaxis: {title: {text: "cycles per pupil diameter"}, ...scale(true, design.cycles_per_pupil)},
-        yaxis: {title: {text: "share, 1/rad"}, rangemode: "tozero"}},
+        yaxis: {title: {text: "recovered share; contrast, 1/rad"}, rangemode: "tozero"}},
     }));
   if (design.amplitude_noise_nm?.some((value) => value !== null)) {
     chart(part, "Photon noise of the recovered amplitude.", (theme) => ({
@@ -76,7 +77,8 @@ function responseCharts(part, columns) {
         {name: "predicted", x: design.cycles_per_pupil, y: design.predicted_amplitude_noise_nm,
           colour: 1, isDashed: true}]),
       layout: {xaxis: {title: {text: "cycles per pupil diameter"}, ...scale(true, design.cycles_per_pupil)},
-        yaxis: {title: {text: "noise of the amplitude, nm"}, type: "log"}},
+        yaxis: {title: {text: "noise of the amplitude, nm"}, ...scale(true,
+          [...design.amplitude_noise_nm, ...design.predicted_amplitude_noise_nm])}},
     }));
   }
   part.append(folded("As a table", table(["cycles per pupil", "recovered share", "residual WFE, nm",
@@ -92,11 +94,11 @@ function pairsExplorer(part, columns) {
   if (pairs.planes.length === 0) return;
   const distances = [...new Set(pairs.pair_distance_m)];
   const frequencies = [...new Set(pairs.cycles_per_pupil)];
-  const matrix = (name) => distances.map((distance) => frequencies.map((frequency) =>
+  const matrix = (name) => frequencies.map((frequency) => distances.map((distance) =>
     pairs[name][pairs.pair_distance_m.findIndex((z, i) =>
       z === distance && pairs.cycles_per_pupil[i] === frequency)] ?? null));
-  const grid = {axes: [{name: "distance of the pair", unit: "m", values: distances},
-    {name: "cycles per pupil diameter", unit: "", values: frequencies}], standard_error: {}};
+  const grid = {axes: [{name: "cycles per pupil diameter", unit: "", values: frequencies},
+    {name: "distance of the pair", unit: "m", values: distances}], standard_error: {}};
   for (const name of Object.keys(responseQuantities)) {
     grid[name] = matrix(name);
     grid.standard_error[name] = matrix(`${name}_standard_error`);
@@ -146,6 +148,11 @@ const lawQuantities = {z_near_talbot: "near pair, Talbot distances of r0",
   far_fresnel_number: "far pair, Fresnel number", residual_wfe_wavelengths: "residual WFE, wavelengths",
   fractional_loops: "fractional loops"};
 
+/** What search.order calls planes 1 to 4. */
+function planeName(number) {
+  return ["−near", "near", "−far", "far"][number - 1];
+}
+
 /** A line of the law, in the logarithms of D/r0 and of the quantity. */
 function lawLine(law, name, ratios) {
   return ratios.map((ratio) => Math.exp(law[name].intercept + law[name].slope * Math.log(ratio)));
@@ -157,16 +164,17 @@ function showLaw(summary) {
   section("Law", (part) => {
     const grid = element("div", {className: "side-by-side"});
     part.append(element("p", {}, `The best designs that were found at each D/r0, and the lines that are
-      fitted to them; planes are visited as ${law.order.join("")}.`), grid);
+      fitted to them. Planes are visited in the order ${law.order.map(planeName).join(", ")}.`),
+    table(["law", ""], Object.entries(lawQuantities).map(([name, title]) => [title,
+      `${digits(Math.exp(law[name].intercept), 3)} (D/r0)^${digits(law[name].slope, 3)}`])), grid);
     const steps = Array.from({length: 60}, (_, i) =>
       law.least_d_over_r0 * (law.greatest_d_over_r0 / law.least_d_over_r0) ** (i / 59));
     for (const [name, title] of Object.entries(lawQuantities)) {
       chart(grid, "", (theme) => ({
         data: lineTraces(theme, [
           ...(columns?.[name] ? [{name: "searches", x: columns.d_over_r0, y: columns[name],
-            errors: columns[`${name}_standard_error`]}] : []),
-          {name: "law", x: steps, y: lawLine(law, name, steps), colour: 1, isDashed: true}])
-          .map((trace) => ({...trace, mode: trace.name === "searches" ? "markers" : "lines"})),
+            errors: columns[`${name}_standard_error`], isPoints: true}] : []),
+          {name: "law", x: steps, y: lawLine(law, name, steps), colour: 1, isDashed: true}]),
         layout: {xaxis: {title: {text: "D/r<sub>0</sub>"}, ...scale(true, steps)},
           yaxis: {title: {text: title},
             ...scale(true, [...lawLine(law, name, steps), ...(columns?.[name] ?? [])])}},
@@ -254,7 +262,8 @@ function showBenchmark(summary) {
   section("Speed", (part) => {
     part.append(element("p", {}, `${summary.plane_count} planes of ${summary.detector_pixels} x
       ${summary.detector_pixels} pixels, reconstruction grid ${summary.grid_samples} x
-      ${summary.grid_samples}; ${summary.screens} screens, ${timing.threads} threads; medians of
+      ${summary.grid_samples}; ${summary.screens} screens, ${timing.threads} ${
+      timing.threads === 1 ? "thread" : "threads"}; medians of
       ${timing.repetitions} evaluations, peak memory ${digits(timing.peak_memory_mib, 3)} MiB. Timings on
       a machine at work hold two digits.`),
     table(["precision of the reconstruction", "double", "single"], Object.entries({
@@ -273,8 +282,9 @@ function showBenchmark(summary) {
 // export --------------------------------------------------------------------------------------
 
 function showExport(summary) {
-  section("Files", (part) => part.append(table(["stage", "evaluations"],
-    Object.entries(summary.stages ?? {}), `Of ${summary.source}, in ${summary.files.join(", ")}`)));
+  section("Files", (part) => part.append(
+    element("p", {}, `Of ${summary.source}, in ${summary.files.join(", ")}.`),
+    table(["stage", "evaluations"], Object.entries(summary.stages ?? {}))));
   const columns = data.tables?.["evaluations.csv"];
   if (!columns?.evaluation) return;
   section("Evaluations", (part) => {
@@ -296,7 +306,7 @@ function showExport(summary) {
         return {type: "scatter", mode: "markers", name: plain(stage), x: rows[chosen.x],
           y: rows[chosen.y], marker: {color: theme.lines[i % theme.lines.length], size: 6},
           text: rows.evaluation.map((number) => `evaluation ${number}`),
-          hovertemplate: "%{text}<br>%{x:.5g}, %{y:.5g}<extra></extra>"};
+          hovertemplate: "%{text}<br>%{x:.5~g}, %{y:.5~g}<extra></extra>"};
       }),
       layout: {xaxis: {title: {text: plain(label(chosen.x))}}, yaxis: {title: {text: plain(label(chosen.y))},
         ...scale(isWide(columns[chosen.y]), columns[chosen.y])}},

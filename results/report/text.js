@@ -19,13 +19,24 @@ function plain(text) {
     .replaceAll("%{", "%&#123;");
 }
 
-/** With so many significant digits, without zeros behind them. */
+/** With so many significant digits, without zeros behind them; with 4 or more, to the unit at least. */
 function digits(value, count = 4) {
   if (value === null || !Number.isFinite(value)) return "–";
-  if (value !== 0 && (Math.abs(value) < 1e-4 || Math.abs(value) >= 1e7)) {
-    return value.toExponential(count - 1).replace(/\.?0+e/, "e").replace("-", "−");
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e7)) {
+    return value.toExponential(count - 1).replace(/\.?0+e/, "e").replace("e+", "e")
+      .replaceAll("-", "−");
   }
-  return String(Number(value.toPrecision(count))).replace("-", "−");
+  const shown = count >= 4 && size >= 10 ** count ? Math.round(value)
+    : Number(value.toPrecision(count));
+  return String(shown).replace("-", "−");
+}
+
+/** With so many decimals; halves go to the even digit, as in the program's own numbers. */
+function fixed(value, decimals) {
+  const scaled = value * 10 ** decimals;
+  const isHalf = Number.isInteger(value * 2 ** (decimals + 1)) && Math.abs(scaled % 1) === 0.5;
+  return (isHalf ? 2 * Math.round(scaled / 2) / 10 ** decimals : value).toFixed(decimals);
 }
 
 /** "0.52 ± 0.03": a mean with its standard error, to the error's second digit. */
@@ -34,12 +45,13 @@ function withError(quantity) {
   const error = quantity.standard_error;
   if (!(error > 0)) return digits(quantity.mean, 6);
   const decimals = Math.min(Math.max(1 - Math.floor(Math.log10(error)), 0), 9);
-  return `${quantity.mean.toFixed(decimals)} ± ${error.toFixed(decimals)}`.replace("-", "−");
+  return `${fixed(quantity.mean, decimals)} ± ${fixed(error, decimals)}`.replace("-", "−");
 }
 
 /** A sentence of the program with its signs as print has them. */
 function typeset(sentence) {
-  return sentence.replaceAll(" +- ", " ± ").replaceAll("^2", "²");
+  return sentence.replaceAll(" +- ", " ± ").replaceAll("^2", "²")
+    .replace(/(\d)e\+0*(\d)/g, "$1e$2").replace(/(\d)e-0*(\d)/g, "$1e−$2");
 }
 
 const lengthUnits = [[1e3, "km"], [1, "m"], [1e-2, "cm"], [1e-3, "mm"], [1e-6, "µm"], [1e-9, "nm"]];
@@ -48,7 +60,7 @@ const lengthUnits = [[1e3, "km"], [1, "m"], [1e-2, "cm"], [1e-3, "mm"], [1e-6, "
 function length(metres) {
   if (metres === null || !Number.isFinite(metres)) return "–";
   const [size, unit] = lengthUnits.find(([size]) => Math.abs(metres) >= size) ?? [1, "m"];
-  return `${digits(metres / size)} ${unit}`;
+  return `${digits(metres / size)}\u00a0${unit}`;
 }
 
 /** The unit that lengths of an axis are shown in: [its size in m, its name]. */
