@@ -275,10 +275,10 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
 }
 
 Simulation::Simulation(const Telescope& telescope, std::vector<PhaseScreen> screens,
-                       const SimulationOptions& options)
+                       SimulationOptions options)
     : telescope_(telescope),
       screens_(std::move(screens)),
-      options_(options),
+      options_(std::move(options)),
       images_(kept_image_memory) {
   telescope_.validate();
   if (screens_.empty()) throw InputError("screens.count", 0, "at least 1");

@@ -56,7 +56,7 @@ class Simulation {
   /// @param screens  true phases, all m x m samples across the diameter, rad
   /// @throws InputError where there is no screen
   Simulation(const Telescope& telescope, std::vector<PhaseScreen> screens,
-             const SimulationOptions& options);
+             SimulationOptions options);
 
   /// @throws InputError where the design is not valid or does not fit the truth's samples
   Performance evaluate(const SensorDesign& design, const ScreenWatch& watch = {}) const;

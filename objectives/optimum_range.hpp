@@ -19,12 +19,12 @@ struct ScannedValue {
 
 /// How far one variable of a design may move before the design is worse.
 struct OptimumRange {
-  std::string name;        ///< of the property, without "log"
-  double best;             ///< its value in the design, SI
-  double least;            ///< the lowest value tried that cannot be told from the best
-  double greatest;         ///< the highest
-  bool least_is_bound;     ///< the whole way to the end of the search's range is as good
-  bool greatest_is_bound;  ///< likewise at the other end
+  std::string name;                  ///< of the property, without "log"
+  double best;                       ///< its value in the design, SI
+  double least;                      ///< the lowest value tried that cannot be told from the best
+  double greatest;                   ///< the highest
+  bool least_is_bound;               ///< the whole way to the end of the search's range is as good
+  bool greatest_is_bound;            ///< likewise at the other end
   std::vector<ScannedValue> values;  ///< all that were tried, the best among them, ascending
 };
 

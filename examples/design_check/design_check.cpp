@@ -1,12 +1,12 @@
-// Judges a sensor for a 1 m telescope on a few phase screens. The planes' signed distances in km, in
-// visiting order, are the arguments: design_check -250 250 -60 60
+// Judges a sensor for a 1 m telescope on a few phase screens. The planes' signed distances in km,
+// in visiting order, are the arguments: design_check -250 250 -60 60
+#include "model/simulation.hpp"
+#include "model/turbulence_screen.hpp"
+
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <vector>
-
-#include "model/simulation.hpp"
-#include "model/turbulence_screen.hpp"
 
 int main(int argc, char** argv) {
   try {

@@ -157,7 +157,7 @@ TEST_F(Advise, RefusesBadInputInOneLine) {
   expect_refused({"--seeing.d_over_r0", "10000"},
                  "seeing.d_over_r0 = 10000: too far from the law's designs");
   expect_refused({"--seeing.d_over_r0", "0.01"},
-                 "seeing.d_over_r0 = 0.01: a D/r0 from 0.1 to 10000");
+                 "seeing.d_over_r0 = 0.01: too far from the law's designs");
   expect_refused({"--detector.pupil_pixels", "15"}, "detector.pupil_pixels = 15: ");
   expect_refused({"--verify", "--verify.seed", "1"}, "verify.seed = 1: another seed");
   expect_refused({"--verify", "--simulation.pupil_samples", "20"},
