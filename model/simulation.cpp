@@ -19,6 +19,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/nil_generator.hpp>
+#include <boost/uuid/uuid_io.hpp>
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 
@@ -314,6 +318,26 @@ ScreenRecord Simulation::record(const SensorDesign& design, int screen) const {
                                          static_cast<std::size_t>(screen), images_);
   require_numbers(record.performance);
   return record;
+}
+
+std::string Simulation::identity() const {
+  const LightSource& source = options_.source;
+  std::string text = fmt::format(
+      "{} {} {} {} {} {} {} {} {} {}", model_version, telescope_.diameter, telescope_.wavelength,
+      telescope_.central_obscuration, static_cast<int>(options_.truth),
+      static_cast<int>(options_.precision), options_.noise_seed, source.is_split,
+      source.wavelengths, static_cast<int>(source.aberration));
+  for (const Band& band : source.bands) {
+    text += fmt::format(" {}:{}", band.shortest, band.longest);
+  }
+  for (const double weight : source.weights) text += fmt::format(" {}", weight);
+  // Names of names: each depends on all that came before.
+  boost::uuids::uuid name = boost::uuids::name_generator_sha1(boost::uuids::nil_uuid())(text);
+  for (const PhaseScreen& screen : screens_) {
+    name = boost::uuids::name_generator_sha1(name)(
+        screen.data(), static_cast<std::size_t>(screen.size()) * sizeof(double));
+  }
+  return to_string(name);
 }
 
 std::vector<double> Simulation::aberrations() const {

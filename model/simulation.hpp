@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace nlcwfs {
@@ -26,6 +27,10 @@ struct SimulationOptions {
   std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
   LightSource source = {};       ///< wavelengths of the light
 };
+
+/// What of the program decides on the result of a simulation, beside its input: raised by every
+/// change after which equal input may give other bits.
+constexpr int model_version = 1;
 
 /// Asked after each screen that is done, by the thread that did it and by several at once: whether
 /// another may be started. Screens are started in order, so those that are done are the first ones;
@@ -77,6 +82,11 @@ class Simulation {
 
   /// See simulated_design.
   SensorDesign checked(SensorDesign design) const;
+
+  /// A name of all that decides on a design's result: model_version, telescope, wavefronts,
+  /// options. Equal simulations have equal names, on all machines with the same floating point
+  /// format.
+  std::string identity() const;
 
   /// The telescope that the wavefronts have come through.
   const Telescope& telescope() const { return telescope_; }

@@ -17,10 +17,16 @@ std::string DesignProblem::key(const SearchPoint& point) const {
 
 Assessment DesignProblem::assess(const SearchPoint& point, const GoesOn& goes_on) {
   std::atomic<bool> is_ended = false;
-  TriedDesign tried = trial_.run(space_.design(point), goes_on, [&] {
+  const auto watch = [&] {
     if (watch_ && !watch_()) is_ended = true;
     return !is_ended;
-  });
+  };
+  TriedDesign tried;
+  try {
+    tried = trial_.run(space_.design(point), goes_on, watch);
+  } catch (const TrialMemoryFailed& error) {
+    throw SearchFailed(error.what());
+  }
   if (is_ended && static_cast<int>(tried.costs.size()) < trial_.screen_count()) {
     throw SearchStopped(Termination::stop_requested);
   }

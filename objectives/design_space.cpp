@@ -534,4 +534,17 @@ std::string design_key(const SensorDesign& design) {
   return fmt::format("{:.7g};{:.7g}", fmt::join(design.planes, ","), fmt::join(values, ","));
 }
 
+std::string exact_text(const SensorDesign& design) {
+  const auto& [planes, detector, reconstruction] = design;
+  const auto& [pupil_pixels, detector_window, photons, read_noise, photon_rate, exposure] =
+      detector;
+  const auto& [max_loops, tolerance, stopping, relaxation_start, relaxation_end, initial_guess,
+               window, outside, oversampling, unwrapping] = reconstruction;
+  return fmt::format("{};{},{},{},{},{},{};{},{},{},{},{},{},{},{},{},{}", fmt::join(planes, ","),
+                     pupil_pixels, detector_window, photons, read_noise, photon_rate, exposure,
+                     max_loops, tolerance, static_cast<int>(stopping), relaxation_start,
+                     relaxation_end, static_cast<int>(initial_guess), window,
+                     static_cast<int>(outside), oversampling, static_cast<int>(unwrapping));
+}
+
 }  // namespace nlcwfs

@@ -161,4 +161,7 @@ double rounded_window(double window, int samples);
 /// the values of all design_properties(), to 7 digits.
 std::string design_key(const SensorDesign& design);
 
+/// All that a design is, to the last bit: equal texts are equal designs.
+std::string exact_text(const SensorDesign& design);
+
 }  // namespace nlcwfs

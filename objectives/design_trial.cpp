@@ -1,8 +1,14 @@
 #include "objectives/design_trial.hpp"
 
+#include "model/input_error.hpp"
+#include "objectives/design_space.hpp"
+
 #include <algorithm>
 #include <cassert>
+#include <stdexcept>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -26,9 +32,52 @@ DesignTrial::DesignTrial(std::vector<Condition> conditions, DesignCost cost)
   }));
 }
 
+void DesignTrial::remember_in(std::shared_ptr<TrialMemory> memory) {
+  memory_ = std::move(memory);
+  identity_ = identity();
+}
+
+std::string DesignTrial::identity() const {
+  std::string identity;
+  for (const Condition& condition : conditions_) {
+    identity += condition.simulation->identity();
+    if (condition.light) identity += fmt::format(" {}", *condition.light);
+    identity += ';';
+  }
+  return identity;
+}
+
 TriedDesign DesignTrial::run(const SensorDesign& design,
                              const std::function<bool(std::span<const double>)>& goes_on,
                              const ScreenWatch& watch) const {
+  RememberedTrial known{std::vector<Performance>(conditions_.size())};
+  if (!memory_) return simulated(design, std::move(known), goes_on, watch);
+
+  const std::string text = exact_text(design);
+  if (auto remembered = memory_->find(identity_, text)) {
+    if (!remembered->failure.empty()) throw std::runtime_error(remembered->failure);
+    // Of anything else no trial of this name has left it.
+    if (remembered->performances.size() == conditions_.size()) known = std::move(*remembered);
+  }
+  const std::size_t known_screens = known.performances.front().screens.size();
+  TriedDesign tried;
+  try {
+    tried = simulated(design, std::move(known), goes_on, watch);
+  } catch (const InputError&) {
+    throw;  // it was never tried
+  } catch (const std::exception& error) {
+    memory_->keep(identity_, text, {.performances = {}, .failure = error.what()});
+    throw;
+  }
+  if (tried.costs.size() > known_screens) {
+    memory_->keep(identity_, text, {.performances = tried.performances});
+  }
+  return tried;
+}
+
+TriedDesign DesignTrial::simulated(const SensorDesign& design, RememberedTrial known,
+                                   const std::function<bool(std::span<const double>)>& goes_on,
+                                   const ScreenWatch& watch) const {
   TriedDesign tried{design, std::vector<Performance>(conditions_.size()), {}};
   const bool may_end = goes_on && cost_.aggregate.kind == AggregateKind::mean;
   int done = 0;
@@ -37,10 +86,15 @@ TriedDesign DesignTrial::run(const SensorDesign& design,
                              : screen_count();
     std::size_t least = static_cast<std::size_t>(next);
     for (std::size_t k = 0; k < conditions_.size(); ++k) {
-      Performance block =
-          conditions_[k].simulation->evaluate(conditions_[k].lit(design), done, next - done, watch);
       std::vector<ScreenPerformance>& screens = tried.performances[k].screens;
-      std::ranges::move(block.screens, std::back_inserter(screens));
+      std::vector<ScreenPerformance>& before = known.performances[k].screens;
+      const int from = std::clamp(static_cast<int>(before.size()), done, next);
+      std::move(before.begin() + done, before.begin() + from, std::back_inserter(screens));
+      if (from < next) {
+        Performance block = conditions_[k].simulation->evaluate(conditions_[k].lit(design), from,
+                                                                next - from, watch);
+        std::ranges::move(block.screens, std::back_inserter(screens));
+      }
       least = std::min(least, screens.size());
     }
     if (least < static_cast<std::size_t>(next)) return on_first_screens(std::move(tried), least);

@@ -6,6 +6,7 @@
 #include "model/statistics.hpp"
 #include "objectives/design_cost.hpp"
 #include "objectives/design_metric.hpp"
+#include "objectives/trial_memory.hpp"
 
 #include <functional>
 #include <memory>
@@ -44,12 +45,21 @@ class DesignTrial {
   /// @pre there is a condition, and all have the same number of screens
   DesignTrial(std::vector<Condition> conditions, DesignCost cost);
 
+  /// From now on no screen of a design is simulated again that the memory knows, and what is
+  /// simulated is kept in it, failures too.
+  void remember_in(std::shared_ptr<TrialMemory> memory);
+
+  /// A name of all that decides on the performance of a design, and of nothing else: how it is
+  /// costed does not.
+  std::string identity() const;
+
   /// @param goes_on  asked with the costs of the first 4, 8, 16, ... screens: false ends the trial
   ///                 with these screens alone; a screen's result does not depend on it. Only asked
   ///                 where the aggregate is the mean
   /// @param watch    ends the trial where it says so, with the screens that are done under all
   ///                 conditions, one at least
-  /// @throws InputError where a condition's simulation cannot have the design
+  /// @throws InputError where a condition's simulation cannot have the design, std::runtime_error
+  ///         where it failed when it was tried before, TrialMemoryFailed
   TriedDesign run(const SensorDesign& design,
                   const std::function<bool(std::span<const double>)>& goes_on = {},
                   const ScreenWatch& watch = {}) const;
@@ -85,8 +95,14 @@ class DesignTrial {
   /// From the performances.
   void set_costs(TriedDesign& tried) const;
 
+  TriedDesign simulated(const SensorDesign& design, RememberedTrial known,
+                        const std::function<bool(std::span<const double>)>& goes_on,
+                        const ScreenWatch& watch) const;
+
   std::vector<Condition> conditions_;
   DesignCost cost_;
+  std::shared_ptr<TrialMemory> memory_;
+  std::string identity_;  // empty without a memory
 };
 
 }  // namespace nlcwfs

@@ -211,6 +211,8 @@ void Evaluator::assess(Evaluation& evaluation, const std::optional<Race>& race) 
     }
   } catch (const SearchStopped& stopped) {
     evaluation.ended = stopped.termination;
+  } catch (const SearchFailed&) {
+    throw;  // no design is to blame
   } catch (const std::exception& error) {
     record.failure = fmt::format("exception: {}", error.what());
   } catch (...) {

@@ -79,7 +79,8 @@ struct SearchStopped : std::exception {
   Termination termination;  ///< why the search ended
 };
 
-/// A search that cannot go on: evaluations fail one after the other. Names the last reason.
+/// A search that cannot go on: evaluations fail one after the other, or the problem throws it.
+/// Names the last reason.
 class SearchFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -29,7 +29,18 @@ std::string text_at(sqlite3_stmt* statement, int column) {
              : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(statement, column)));
 }
 
+/// Of the tables, as the file's user_version: 0 had no trials.
+constexpr int current_layout = 1;
+
+/// Of the table `evaluations` in every layout.
 constexpr std::string_view columns = "id,stage,key,design,cost,failure,seconds,performance";
+
+void bind_text(sqlite3_stmt* statement, int parameter, const std::string& text) {
+  // SQLite stores an unbound parameter as NULL.
+  if (text.empty()) return;
+  sqlite3_bind_text(statement, parameter, text.data(), static_cast<int>(text.size()),
+                    SQLITE_STATIC);
+}
 
 }  // namespace
 
@@ -42,51 +53,133 @@ Archive::Archive(const std::filesystem::path& path, int flags) : path_(path) {
   if (status != SQLITE_OK) fail("open");
 }
 
-Archive::Archive(const std::filesystem::path& path)
+Archive::Archive(const std::filesystem::path& path, std::string_view command)
     : Archive(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE) {
   execute(
+      "BEGIN;"
+      "CREATE TABLE run (command TEXT NOT NULL, seconds REAL NOT NULL);"
       "CREATE TABLE evaluations ("
       "id INTEGER PRIMARY KEY, stage TEXT NOT NULL, key TEXT, design TEXT NOT NULL, cost REAL, "
-      "failure TEXT, seconds REAL NOT NULL, performance TEXT)");
+      "failure TEXT, seconds REAL NOT NULL, performance TEXT);"
+      "CREATE TABLE trials (trial TEXT NOT NULL, design TEXT NOT NULL, performances BLOB, "
+      "failure TEXT, PRIMARY KEY (trial, design)) WITHOUT ROWID");
+  const Statement statement =
+      prepared(database_.get(), "INSERT INTO run (command, seconds) VALUES (?, 0)");
+  if (!statement) fail("write to");
+  const std::string name(command);
+  bind_text(statement.get(), 1, name);
+  if (sqlite3_step(statement.get()) != SQLITE_DONE) fail("write to");
+  execute(fmt::format("PRAGMA user_version = {}; COMMIT", current_layout).c_str());
 }
 
 Archive Archive::reopened(const std::filesystem::path& path) {
   Archive archive(path, SQLITE_OPEN_READWRITE);
-  const Statement layout = prepared(
+  const Statement table = prepared(
       archive.database_.get(), "SELECT group_concat(name) FROM pragma_table_info('evaluations')");
-  if (!layout || sqlite3_step(layout.get()) != SQLITE_ROW) archive.fail("read");
-  if (const std::string found = text_at(layout.get(), 0); found != columns) {
-    throw std::runtime_error(
-        fmt::format("cannot go on with the archive {}: its table has the columns '{}', this "
-                    "version's '{}'",
-                    path.string(), found, columns));
+  if (!table || sqlite3_step(table.get()) != SQLITE_ROW) archive.fail("read");
+  const int layout = archive.layout();
+  if (text_at(table.get(), 0) != columns || layout > current_layout) {
+    throw std::runtime_error(fmt::format("{} is {}", path.string(),
+                                         layout > current_layout
+                                             ? "the archive of a newer version of nlcwfs"
+                                             : "no archive of a run of nlcwfs"));
+  }
+  if (layout > 0) {
+    const Statement run = prepared(archive.database_.get(), "SELECT seconds FROM run");
+    if (!run || sqlite3_step(run.get()) != SQLITE_ROW) archive.fail("read");
+    archive.seconds_before_ = sqlite3_column_double(run.get(), 0);
   }
   return archive;
 }
 
+int Archive::layout() const {
+  const Statement statement = prepared(database_.get(), "PRAGMA user_version");
+  if (!statement || sqlite3_step(statement.get()) != SQLITE_ROW) fail("read");
+  return sqlite3_column_int(statement.get(), 0);
+}
+
+bool Archive::has_trials() const { return layout() > 0; }
+
+std::string Archive::command() const {
+  const Statement statement = prepared(database_.get(), "SELECT command FROM run");
+  if (!statement || sqlite3_step(statement.get()) != SQLITE_ROW) fail("read");
+  return text_at(statement.get(), 0);
+}
+
 void Archive::add(const ArchivedEvaluation& evaluation) {
+  const std::scoped_lock lock(*lock_);
   const Statement statement =
       prepared(database_.get(),
                "INSERT INTO evaluations (stage, key, design, cost, failure, seconds, performance) "
                "VALUES (?, ?, ?, ?, ?, ?, ?)");
   if (!statement) fail("write to");
-  // SQLite stores an unbound parameter, and a NaN, as NULL.
-  const auto bind_text = [&](int parameter, const std::string& text) {
-    if (text.empty()) return;
-    sqlite3_bind_text(statement.get(), parameter, text.data(), static_cast<int>(text.size()),
-                      SQLITE_STATIC);
-  };
-  bind_text(1, evaluation.stage);
-  bind_text(2, evaluation.key);
-  bind_text(3, evaluation.design);
-  sqlite3_bind_double(statement.get(), 4, evaluation.cost);
-  bind_text(5, evaluation.failure);
+  bind_text(statement.get(), 1, evaluation.stage);
+  bind_text(statement.get(), 2, evaluation.key);
+  bind_text(statement.get(), 3, evaluation.design);
+  sqlite3_bind_double(statement.get(), 4, evaluation.cost);  // a NaN becomes NULL
+  bind_text(statement.get(), 5, evaluation.failure);
   sqlite3_bind_double(statement.get(), 6, evaluation.seconds);
-  bind_text(7, evaluation.performance);
+  bind_text(statement.get(), 7, evaluation.performance);
   if (sqlite3_step(statement.get()) != SQLITE_DONE) fail("write to");
 }
 
+void Archive::clear_evaluations() {
+  const std::scoped_lock lock(*lock_);
+  execute("DELETE FROM evaluations");
+}
+
+void Archive::keep(const std::string& trial, const std::string& design,
+                   const ArchivedTrial& known) {
+  const std::scoped_lock lock(*lock_);
+  execute("BEGIN");
+  const Statement statement = prepared(
+      database_.get(),
+      "INSERT OR REPLACE INTO trials (trial, design, performances, failure) VALUES (?, ?, ?, ?)");
+  const Statement clock = prepared(database_.get(), "UPDATE run SET seconds = ?");
+  if (!statement || !clock) fail("write to");
+  bind_text(statement.get(), 1, trial);
+  bind_text(statement.get(), 2, design);
+  if (known.failure.empty()) {
+    sqlite3_bind_blob(statement.get(), 3, known.performances.data(),
+                      static_cast<int>(known.performances.size()), SQLITE_STATIC);
+  }
+  bind_text(statement.get(), 4, known.failure);
+  const std::chrono::duration<double> open = std::chrono::steady_clock::now() - opened_;
+  sqlite3_bind_double(clock.get(), 1, seconds_before_ + open.count());
+  if (sqlite3_step(statement.get()) != SQLITE_DONE || sqlite3_step(clock.get()) != SQLITE_DONE) {
+    fail("write to");
+  }
+  execute("COMMIT");
+}
+
+std::size_t Archive::known_designs(const std::string& trial) const {
+  const std::scoped_lock lock(*lock_);
+  const Statement statement =
+      prepared(database_.get(), "SELECT count(*) FROM trials WHERE trial = ?");
+  if (!statement) fail("read");
+  bind_text(statement.get(), 1, trial);
+  if (sqlite3_step(statement.get()) != SQLITE_ROW) fail("read");
+  return static_cast<std::size_t>(sqlite3_column_int64(statement.get(), 0));
+}
+
+std::optional<ArchivedTrial> Archive::find(const std::string& trial,
+                                           const std::string& design) const {
+  const std::scoped_lock lock(*lock_);
+  const Statement statement = prepared(
+      database_.get(), "SELECT performances, failure FROM trials WHERE trial = ? AND design = ?");
+  if (!statement) fail("read");
+  bind_text(statement.get(), 1, trial);
+  bind_text(statement.get(), 2, design);
+  const int status = sqlite3_step(statement.get());
+  if (status == SQLITE_DONE) return std::nullopt;
+  if (status != SQLITE_ROW) fail("read");
+  const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement.get(), 0));
+  return ArchivedTrial{{bytes, bytes + sqlite3_column_bytes(statement.get(), 0)},
+                       text_at(statement.get(), 1)};
+}
+
 std::vector<ArchivedEvaluation> Archive::evaluations() const {
+  const std::scoped_lock lock(*lock_);
   const Statement statement =
       prepared(database_.get(),
                "SELECT stage, key, design, cost, failure, seconds, performance FROM evaluations "

@@ -1,7 +1,12 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,35 +26,74 @@ struct ArchivedEvaluation {
   std::string key = {};     ///< what identifies the design among the run's; may be empty
 };
 
-/// Every evaluation of a run, in an SQLite file with one table, `evaluations`. An evaluation is on
-/// disk when add() returns.
+/// What is known of a design in a trial, as it is archived: see TrialMemory.
+struct ArchivedTrial {
+  std::vector<std::uint8_t> performances;  ///< performance_record(); empty where it failed
+  std::string failure = {};                ///< why it did; empty where it did not
+
+  bool operator==(const ArchivedTrial&) const = default;  ///< to the last bit
+};
+
+/// What a run has found out, in an SQLite file: the table `evaluations` of what it reports, and the
+/// table `trials` of every screen that was simulated, from which the run can go on. What is added
+/// is on disk when the function returns. One archive may be used by many threads.
 class Archive {
  public:
-  /// @param path  a file that does not exist
+  /// Makes it.
+  /// @param path     a file that does not exist
+  /// @param command  whose run it is
   /// @throws std::runtime_error with path and cause; so do the other functions
-  explicit Archive(const std::filesystem::path& path);
+  Archive(const std::filesystem::path& path, std::string_view command);
 
-  /// Opens that of an earlier run.
-  /// @throws std::runtime_error also where there is none, or its table has other columns
+  /// Opens that of an earlier run, which may be a run of an older version.
+  /// @throws std::runtime_error also where there is none, its tables are not those of an archive,
+  /// or
+  ///         a newer version has made it
   static Archive reopened(const std::filesystem::path& path);
 
-  /// Appends an evaluation; it is on disk when this returns.
+  /// Whose run it is.
+  std::string command() const;
+
+  /// Whether a run can go on from it: not from that of an older version.
+  bool has_trials() const;
+
+  /// Appends an evaluation.
   void add(const ArchivedEvaluation& evaluation);
 
-  /// Everything in it, in the order in which it was added.
+  /// Everything that was added, in that order.
   std::vector<ArchivedEvaluation> evaluations() const;
+
+  /// How long earlier runs in this archive had worked when they last kept something, s.
+  double seconds_before() const { return seconds_before_; }
+
+  /// How many designs are known in a trial.
+  std::size_t known_designs(const std::string& trial) const;
+
+  /// Forgets the evaluations, for a run that goes on: it adds those that it finds in the trials
+  /// again.
+  void clear_evaluations();
+
+  /// Keeps what is known of a design in a trial, in place of what was known before.
+  void keep(const std::string& trial, const std::string& design, const ArchivedTrial& known);
+
+  /// Nothing where the design is not known.
+  std::optional<ArchivedTrial> find(const std::string& trial, const std::string& design) const;
 
  private:
   Archive(const std::filesystem::path& path, int flags);
 
   [[noreturn]] void fail(std::string_view action) const;
   void execute(const char* sql);
+  int layout() const;
 
   struct Close {
     void operator()(sqlite3* database) const;
   };
   std::filesystem::path path_;
   std::unique_ptr<sqlite3, Close> database_;
+  double seconds_before_ = 0.0;
+  std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
+  std::unique_ptr<std::mutex> lock_ = std::make_unique<std::mutex>();  // movable
 };
 
 }  // namespace nlcwfs

@@ -63,6 +63,14 @@ OutputFolder OutputFolder::of_earlier_run(const std::filesystem::path& path) {
   return folder;
 }
 
+void OutputFolder::remove_files_except(const std::set<std::string, std::less<>>& kept) const {
+  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+    if (entry.is_regular_file() && !kept.contains(entry.path().filename().string())) {
+      std::filesystem::remove(entry.path());
+    }
+  }
+}
+
 void OutputFolder::write(std::string_view name, std::string_view text) const {
   const std::filesystem::path target = file(name);
   std::filesystem::path partial = target;

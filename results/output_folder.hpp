@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -30,6 +32,10 @@ class OutputFolder {
   const std::filesystem::path& path() const { return path_; }
   /// The path of a file in it.
   std::filesystem::path file(std::string_view name) const { return path_ / name; }
+
+  /// Removes the files in it, but not its folders.
+  /// @throws std::runtime_error with path and cause
+  void remove_files_except(const std::set<std::string, std::less<>>& kept) const;
 
   /// Writes a text file, under another name until it is complete.
   /// @throws std::runtime_error with path and cause

@@ -1,6 +1,7 @@
 #include "studies/command_line.hpp"
 
 #include "model/input_error.hpp"
+#include "results/archive.hpp"
 #include "studies/commands.hpp"
 #include "studies/program_options.hpp"
 #include "studies/text.hpp"
@@ -10,6 +11,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include <boost/program_options/cmdline.hpp>
 #include <boost/program_options/errors.hpp>
@@ -151,6 +153,46 @@ void require_whole_command(const CommandLine& command_line) {
                   command.name, fmt::join(usage_words(command), " ")));
 }
 
+/// Refuses a folder whose archive a command cannot go on with.
+void require_archive_of(const Command& command, const std::filesystem::path& folder) {
+  const std::string shown = one_line(folder.string());
+  std::string begun_by;
+  try {
+    const Archive archive = Archive::reopened(folder / "archive.sqlite");
+    if (archive.has_trials()) begun_by = archive.command();
+  } catch (const std::runtime_error& error) {
+    throw InputError("--resume", shown,
+                     fmt::format("its archive cannot be gone on with: {}", one_line(error.what())));
+  }
+  if (begun_by == command.name) return;
+  throw InputError("--resume", shown,
+                   begun_by.empty()
+                       ? fmt::format("an older version of nlcwfs has begun it; begin it anew with "
+                                     "--config {}",
+                                     one_line((folder / "config.cfg").string()))
+                       : fmt::format("is a run of {}; name the folder of an interrupted {}",
+                                     begun_by, command.name));
+}
+
+/// Refuses a folder that has no trials to take over.
+void require_trials(const Command& command, const std::filesystem::path& folder) {
+  const std::string shown = one_line(folder.string());
+  if (!command.resumable || command.name == "reproduce") {
+    throw InputError("--reuse", shown,
+                     fmt::format("{} keeps no trials; leave it away", command.name));
+  }
+  if (!std::filesystem::is_regular_file(folder / "archive.sqlite")) {
+    throw InputError("--reuse", shown, "has no archive.sqlite; name the folder of a run");
+  }
+  try {
+    if (Archive::reopened(folder / "archive.sqlite").has_trials()) return;
+  } catch (const std::runtime_error& error) {
+    throw InputError("--reuse", shown,
+                     fmt::format("its archive cannot be used: {}", one_line(error.what())));
+  }
+  throw InputError("--reuse", shown, "its archive is of an older version, which kept no trials");
+}
+
 /// The configuration of the run to go on with.
 /// @param configuring  the options that the command line has besides and must not have
 Configuration resumed_configuration(const CommandLine& command_line,
@@ -172,11 +214,13 @@ Configuration resumed_configuration(const CommandLine& command_line,
                      "has no config.cfg and archive.sqlite; name the folder of an interrupted run");
   }
   if (!configuring.empty()) {
-    throw InputError("--resume", shown,
-                     fmt::format("goes on in that folder as its config.cfg says; leave away {}, "
-                                 "nothing may be with it but --threads, --quiet and --log-level",
-                                 fmt::join(configuring, ", ")));
+    throw InputError(
+        "--resume", shown,
+        fmt::format("goes on in that folder as its config.cfg says; leave away {}, "
+                    "nothing may be with it but --reuse, --threads, --quiet and --log-level",
+                    fmt::join(configuring, ", ")));
   }
+  require_archive_of(command, folder);
   Configuration configuration;
   configuration.read_file(folder / "config.cfg");
   return configuration;
@@ -257,6 +301,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       result.output = value;
     } else if (key == "resume") {
       result.resume = value;
+    } else if (key == "reuse") {
+      result.reuse = value;
     } else if (key == "log-level") {
       result.log_level = parse_log_level(value);
     } else if (key == "threads") {
@@ -286,6 +332,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     }
     values.emplace_back(form.key, list);
   }
+  if (result.reuse) require_trials(command_of(result.command), *result.reuse);
   if (result.resume) {
     std::vector<std::string> configuring;
     if (preset) configuring.emplace_back("--preset");

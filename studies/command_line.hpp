@@ -19,6 +19,7 @@ struct CommandLine {
   Configuration configuration;         ///< what files, preset and command line say together
   std::optional<std::filesystem::path> output;  ///< directory for the results
   std::optional<std::filesystem::path> resume;  ///< folder of the run to go on with
+  std::optional<std::filesystem::path> reuse;   ///< folder of a run whose trials are taken over
   int threads = 0;                              ///< 0 = all cores
   LogLevel log_level = LogLevel::info;          ///< what goes to standard error
   bool silent = false;              ///< print no results either: for runs that are parts of another

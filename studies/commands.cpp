@@ -98,7 +98,8 @@ const std::vector<Command>& commands() {
        .keys = joined({site, simulation, judgement}),
        .examples = {"nlcwfs evaluate --telescope.diameter 1.8 --seeing.fried_parameter 24cm",
                     "nlcwfs evaluate --config results/optimize-1/best.cfg --screens.count 256"},
-       .run = run_evaluate},
+       .run = run_evaluate,
+       .resumable = true},
       {.name = "convergence",
        .group = one_design,
        .description = "follow one design's residual wavefront error from loop to loop",
@@ -144,7 +145,7 @@ const std::vector<Command>& commands() {
        .description = "try every design of a grid: maps of all figures, and the best, verified",
        .about = "Tries all designs of the axes of the section sweep, maps every metric over them, "
                 "and verifies the best few on fresh screens. It is what a search is checked "
-                "against. An interrupted sweep goes on with --resume.",
+                "against.",
        .keys = joined({site, simulation, judgement, {"sweep", "verify", "search.precision"}}),
        .examples = {"nlcwfs sweep --sweep.z_near 5km:100km:24:log --sweep.z_far 50km:235km:24:log",
                     "nlcwfs sweep --resume results/sweep-1"},
@@ -163,7 +164,8 @@ const std::vector<Command>& commands() {
             "--seeing.fwhm 0.9",
             "nlcwfs optimize --search.layout free --search.plane_count 3,4 --detector.photons "
             "1e5"},
-       .run = run_optimize},
+       .run = run_optimize,
+       .resumable = true},
       {.name = "compare",
        .group = best_designs,
        .description =
@@ -185,7 +187,8 @@ const std::vector<Command>& commands() {
            "front, knee.cfg its knee.",
        .keys = joined({site, simulation, judgement, space, fresh_screens, {"trade"}}),
        .examples = {"nlcwfs trade --trade.objectives total_wfe_nm,model_seconds,plane_count"},
-       .run = run_trade},
+       .run = run_trade,
+       .resumable = true},
       {.name = "law",
        .group = laws,
        .description = "fit the scaling law that advise follows to the best designs at several D/r0",
@@ -194,7 +197,8 @@ const std::vector<Command>& commands() {
        .keys =
            joined({{"telescope", "seeing.outer_scale"}, simulation, judgement, search, {"law"}}),
        .examples = {"nlcwfs law --law.d_over_r0 3,4,6,8"},
-       .run = run_law},
+       .run = run_law,
+       .resumable = true},
       {.name = "advise",
        .group = laws,
        .description = "tell a telescope's planes from the scaling law; --verify simulates them",

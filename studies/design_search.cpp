@@ -138,6 +138,11 @@ DesignSearch::DesignSearch(const Configuration& configuration)
   }
 }
 
+void DesignSearch::remember_in(const std::shared_ptr<TrialMemory>& memory) {
+  for (DesignTrial* each : {&trial, &verification, &scan}) each->remember_in(memory);
+  if (cheap_) cheap_->trial.remember_in(memory);
+}
+
 DesignSearchResult DesignSearch::run(Archive& archive, const Progress* whole) const {
   DesignSearchResult result;
   const InterruptWatch watch;

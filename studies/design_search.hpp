@@ -12,6 +12,7 @@
 #include "studies/search_pictures.hpp"
 #include "studies/verified_ranking.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,6 +62,9 @@ class DesignSearch {
   /// @throws InputError where values do not go together
   explicit DesignSearch(const Configuration& configuration);
 
+  /// See DesignTrial::remember_in.
+  void remember_in(const std::shared_ptr<TrialMemory>& memory);
+
   /// The cheap stage where there is one, the search, the verification on fresh screens and the
   /// scan of how far the best design's variables may move. An interrupt of the search ends it with
   /// the best designs so far, which are verified all the same; one of the verification ends it with
@@ -74,9 +78,9 @@ class DesignSearch {
   const DesignSpace space;         ///< that the search has designs of
   SearchOptions options;           ///< of the search proper
   std::vector<std::string> notes;  ///< for the user
-  const DesignTrial trial;         ///< of the search
-  const DesignTrial verification;  ///< on fresh screens
-  const DesignTrial scan;          ///< for the ranges
+  DesignTrial trial;               ///< of the search
+  DesignTrial verification;        ///< on fresh screens
+  DesignTrial scan;                ///< for the ranges
   const SensorDesign baseline;     ///< that the best is compared with
 
  private:

@@ -18,9 +18,10 @@ void run_evaluate(const CommandLine& command_line) {
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   std::vector<std::string> notes;
-  const DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
+  DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
   const SensorDesign design = trial.checked(design_of(configuration));
   RunRecord record(command_line);
+  trial.remember_in(record.memory());
 
   const Stopwatch stopwatch;
   const TriedDesign tried = [&] {

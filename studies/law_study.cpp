@@ -169,7 +169,8 @@ void run_law(const CommandLine& command_line) {
   {
     Progress progress("law", double(ratios.size()), "seeings");
     for (const double ratio : ratios) {
-      const DesignSearch task(at_seeing(configuration, order, ratio));
+      DesignSearch task(at_seeing(configuration, order, ratio));
+      task.remember_in(record.memory());
       const DesignSearchResult result = task.run(record.archive(), &progress);
       if (!result.interrupted_when.empty()) break;
       data.push_back(datum_of(task, result));

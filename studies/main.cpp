@@ -6,6 +6,7 @@
 #include "studies/help_text.hpp"
 #include "studies/interrupt.hpp"
 #include "studies/log.hpp"
+#include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/text.hpp"
 #include "studies/version.hpp"
@@ -35,6 +36,10 @@ void run(nlcwfs::CommandLine& command_line) {
   }
   start_log(command_line.log_level);
   if (command_line.output) OutputFolder::require_free(*command_line.output);
+  if (command_line.resume && is_complete(*command_line.resume)) {
+    fmt::print("{} is complete, nothing is left to do.\n", command_line.resume->string());
+    return;
+  }
   const int threads =
       command_line.threads > 0 ? command_line.threads : tbb::this_task_arena::max_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

@@ -140,8 +140,9 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
 void run_optimize(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
   const Stopwatch stopwatch;
-  const DesignSearch task(configuration);
+  DesignSearch task(configuration);
   RunRecord record(command_line);
+  task.remember_in(record.memory());
   const DesignSearchResult result = task.run(record.archive());
   if (!result.interrupted_when.empty()) record.note_interrupted(result.interrupted_when);
 

@@ -46,6 +46,8 @@ const std::vector<ProgramOption>& program_options() {
       {"output", "DIR", "write the results there [results/<command>-<n>]", is_of_runs},
       {"resume", "DIR", "go on with the interrupted run in this folder, as it is configured",
        [](const Command& command) { return command.resumable; }},
+      {"reuse", "DIR", "simulate nothing again that the run in this folder has simulated alike",
+       [](const Command& command) { return command.resumable && command.name != "reproduce"; }},
       {"figure", "N",
        "run only this figure of the paper, or another part that reproduce.figures knows; may be "
        "given several times",

@@ -1,4 +1,5 @@
 #include "model/input_error.hpp"
+#include "studies/commands.hpp"
 #include "studies/interrupt.hpp"
 #include "studies/paper_claims.hpp"
 #include "studies/progress.hpp"
@@ -73,9 +74,10 @@ void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::pat
                      .configuration = runs[i].configuration,
                      .output = path,
                      .resume = {},
+                     .reuse = {},
                      .silent = true,
                      .whole = &progress};
-    if (is_of(runs[i], path) && part.command == "sweep" && has_archive(path)) {
+    if (is_of(runs[i], path) && command_of(part.command).resumable && has_archive(path)) {
       part.resume = path;
     } else {
       std::filesystem::remove_all(path);  // what a killed run has left, which cannot go on

@@ -1,20 +1,44 @@
 #include "studies/run_record.hpp"
 
+#include "studies/archive_memory.hpp"
 #include "studies/commands.hpp"
 #include "studies/report_study.hpp"
 #include "studies/version.hpp"
 
+#include <fstream>
+
 #include <fmt/format.h>
 
 namespace nlcwfs {
+
+namespace {
+
+std::optional<Archive> reused(const CommandLine& command_line) {
+  if (!command_line.reuse) return std::nullopt;
+  return Archive::reopened(*command_line.reuse / "archive.sqlite");
+}
+
+}  // namespace
+
+bool is_complete(const std::filesystem::path& folder) {
+  std::ifstream file(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  return summary.is_object() && !summary.value("interrupted", true);
+}
 
 RunRecord::RunRecord(const CommandLine& command_line)
     : command_line_(command_line),
       folder_(command_line.resume ? OutputFolder::of_earlier_run(*command_line.resume)
                                   : OutputFolder(command_line.output, command_line.command)),
       archive_(command_line.resume ? Archive::reopened(folder_.file("archive.sqlite"))
-                                   : Archive(folder_.file("archive.sqlite"))) {
-  if (!command_line.resume) folder_.write("config.cfg", command_line.configuration.dump());
+                                   : Archive(folder_.file("archive.sqlite"), command_line.command)),
+      memory_(std::make_shared<ArchiveMemory>(archive_, reused(command_line))) {
+  if (command_line.resume) {
+    archive_.clear_evaluations();
+    folder_.remove_files_except({"config.cfg", "archive.sqlite"});
+  } else {
+    folder_.write("config.cfg", command_line.configuration.dump());
+  }
   if (!command_line.silent) print_ignored_keys(command_line);
 }
 
@@ -48,6 +72,9 @@ void RunRecord::write_summary(const nlohmann::ordered_json& results) const {
 void RunRecord::close() const {
   if (!interruption_.empty()) {
     print("Interrupted when {}: the results are of these.\n", interruption_);
+    if (command_of(command_line_.command).resumable) {
+      print("Go on with: nlcwfs {} --resume {}\n", command_line_.command, folder_.path().string());
+    }
   }
   const std::filesystem::path page = folder_.file("report.html");
   if (std::filesystem::exists(page)) print("Open {} in a browser.\n", page.string());

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "objectives/trial_memory.hpp"
 #include "results/archive.hpp"
 #include "results/output_folder.hpp"
 #include "studies/command_line.hpp"
 #include "studies/interrupt.hpp"
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -13,19 +16,24 @@
 
 namespace nlcwfs {
 
+/// Whether a run has all of its results: not where it was interrupted, or is still going on.
+bool is_complete(const std::filesystem::path& folder);
+
 /// What every run leaves in its output folder: config.cfg, archive.sqlite, summary.json. While it
 /// lives, an interrupt is noted: there is something to come to a clean end with.
 class RunRecord {
  public:
   /// Makes the folder with the configuration and an empty archive; with --resume it takes those of
-  /// the earlier run. Notes keys that the command ignores. Call it when nothing in the input can be
-  /// wrong any more.
+  /// the earlier run, and whatever else that has left is made anew. Notes keys that the command
+  /// ignores. Call it when nothing in the input can be wrong any more.
   explicit RunRecord(const CommandLine& command_line);
 
   /// Where the run writes to.
   const OutputFolder& folder() const { return folder_; }
   /// The run's evaluations.
   Archive& archive() { return archive_; }
+  /// Where the run's trials remember what they have simulated.
+  const std::shared_ptr<TrialMemory>& memory() const { return memory_; }
 
   /// Notes that an interrupt has left the run's results with less than was asked for.
   /// @param what  for people: "5 of 16 screens are done"
@@ -54,6 +62,7 @@ class RunRecord {
   std::string interruption_;  // empty without one
   OutputFolder folder_;
   Archive archive_;
+  std::shared_ptr<TrialMemory> memory_;
 };
 
 }  // namespace nlcwfs

@@ -2,7 +2,6 @@
 #include "optimizer/problem.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
-#include "results/json_numbers.hpp"
 #include "studies/axis_text.hpp"
 #include "studies/closer_look.hpp"
 #include "studies/design_text.hpp"
@@ -26,10 +25,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <mutex>
-#include <new>
 #include <optional>
-#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -104,31 +100,22 @@ Task::Task(const Configuration& configuration)
 struct Outcome {
   MeanAndError cost{};
   double violation = 0.0;
-  double elapsed = 0.0;  ///< of the sweep when it was known, s, earlier runs included
   std::vector<MeanAndError> metrics = {};  ///< in the order of Task::metrics
   std::string failure = {};                ///< why there is none of these
 };
 
-Outcome outcome_of(const ArchivedEvaluation& evaluation, const Task& task) {
-  if (!evaluation.failure.empty()) return {.failure = evaluation.failure};
-  const Json performance = Json::parse(evaluation.performance);
-  Outcome outcome{.cost = mean_from_json(performance.at("cost")),
-                  .violation = number_from_json(performance.at("violation")),
-                  .elapsed = performance.at("elapsed_seconds")};
-  for (const DesignMetric& metric : task.metrics) {
-    outcome.metrics.push_back(
-        mean_from_json(performance.at("metrics").at(std::string(metric.name))));
-  }
-  return outcome;
-}
+/// A design that was tried: its place among the designs, how it did, and the archive's row.
+struct Tried {
+  Outcome outcome;
+  ArchivedEvaluation evaluation;
+};
 
 /// Tries a design; one that cannot be tried has a failure. Nothing where an interrupt ended it.
-/// @param elapsed_before  of the sweep before `sweep_stopwatch`, s
-std::optional<ArchivedEvaluation> evaluation_of(const GridDesign& design, const Task& task,
-                                                const Stopwatch& sweep_stopwatch,
-                                                double elapsed_before) {
+std::optional<Tried> tried_design(const GridDesign& design, const Task& task) {
   const Stopwatch stopwatch;
-  ArchivedEvaluation evaluation{
+  Tried result;
+  ArchivedEvaluation& evaluation = result.evaluation;
+  evaluation = {
       .stage = "sweep",
       .design = to_json(design.design, task.telescope, task.seeing.fried_parameter).dump(),
       .cost = std::numeric_limits<double>::quiet_NaN(),
@@ -140,37 +127,40 @@ std::optional<ArchivedEvaluation> evaluation_of(const GridDesign& design, const 
     const TriedDesign tried =
         task.trial.run(design.design, {}, [] { return !InterruptWatch::interrupted(); });
     if (static_cast<int>(tried.costs.size()) < task.trial.screen_count()) return std::nullopt;
-    const MeanAndError cost = mean_and_standard_error(tried.costs);
-    if (!std::isfinite(cost.mean)) {
-      throw std::runtime_error(fmt::format("the cost is {}", cost.mean));
+    result.outcome.cost = mean_and_standard_error(tried.costs);
+    if (!std::isfinite(result.outcome.cost.mean)) {
+      throw std::runtime_error(fmt::format("the cost is {}", result.outcome.cost.mean));
     }
-    evaluation.cost = cost.mean;
-    // With all that the grid's tables have of a design, so that they can be made of the archive.
+    result.outcome.violation = tried.violation;
+    evaluation.cost = result.outcome.cost.mean;
     Json performance = to_json(pooled(tried.performances));
-    performance["cost"] = to_json(cost);
-    for (const DesignMetric& metric : task.metrics) {
-      performance["metrics"][std::string(metric.name)] = to_json(task.trial.mean_of(tried, metric));
-    }
+    performance["cost"] = to_json(result.outcome.cost);
     performance["violation"] = tried.violation;
-    performance["elapsed_seconds"] = elapsed_before + sweep_stopwatch.seconds();
+    for (const DesignMetric& metric : task.metrics) {
+      result.outcome.metrics.push_back(task.trial.mean_of(tried, metric));
+      performance["metrics"][std::string(metric.name)] = to_json(result.outcome.metrics.back());
+    }
     evaluation.performance = performance.dump();
-  } catch (const std::bad_alloc&) {
-    throw;  // of the machine, not the design
+  } catch (const TrialMemoryFailed&) {
+    throw;  // no design is to blame
   } catch (const std::exception& error) {
+    result.outcome = {.failure = error.what()};
     evaluation.failure = error.what();
   }
   evaluation.seconds = stopwatch.seconds();
-  return evaluation;
+  return result;
 }
 
 /// A sweep under way: what is known of its designs.
 class Sweep {
  public:
-  /// Takes over what an earlier run has archived.
-  /// @throws InputError where the archive is of another command
-  Sweep(const Task& task, RunRecord& record);
+  Sweep(const Task& task, RunRecord& record)
+      : task_(task),
+        record_(record),
+        designs_(task.grid.distinct_designs()),
+        outcomes_(designs_.size()) {}
 
-  /// Tries what is missing; an interrupt ends it early.
+  /// Tries every design; an interrupt ends it early.
   /// @param whole  see Progress
   void run(const Progress* whole);
 
@@ -178,72 +168,40 @@ class Sweep {
   /// In the order of the designs; nothing where the sweep did not get there.
   const std::vector<std::optional<Outcome>>& outcomes() const { return outcomes_; }
   std::size_t done() const { return done_; }
-  /// What the designs took so far, in earlier runs too, s.
-  double elapsed() const;
+  /// What the designs took, in earlier runs too, s.
+  double seconds() const { return seconds_; }
   bool is_complete() const { return done_ == designs_.size(); }
 
  private:
-  void add(std::size_t design, const ArchivedEvaluation& evaluation);
-
   const Task& task_;
   RunRecord& record_;
   std::vector<GridDesign> designs_;
   std::vector<std::optional<Outcome>> outcomes_;
   std::size_t done_ = 0;
-  std::mutex lock_;  ///< of the archive and what is known
+  double seconds_ = 0.0;
 };
 
-Sweep::Sweep(const Task& task, RunRecord& record)
-    : task_(task),
-      record_(record),
-      designs_(task.grid.distinct_designs()),
-      outcomes_(designs_.size()) {
-  std::map<std::string_view, std::size_t> index;
-  for (std::size_t i = 0; i < designs_.size(); ++i) index.emplace(designs_[i].key, i);
-  for (const ArchivedEvaluation& evaluation : record.archive().evaluations()) {
-    if (evaluation.stage == "verify") continue;
-    const auto design = index.find(evaluation.key);
-    if (evaluation.stage != "sweep" || design == index.end()) {
-      throw InputError("--resume", record.folder().path().string(),
-                       "its archive has designs that are not of the sweep of its config.cfg");
-    }
-    add(design->second, evaluation);
-  }
-}
-
-void Sweep::add(std::size_t design, const ArchivedEvaluation& evaluation) {
-  done_ += outcomes_[design] ? 0 : 1;
-  outcomes_[design] = outcome_of(evaluation, task_);
-}
-
-double Sweep::elapsed() const {
-  double elapsed = 0.0;
-  for (const auto& outcome : outcomes_) {
-    if (outcome) elapsed = std::max(elapsed, outcome->elapsed);
-  }
-  return elapsed;
-}
-
 void Sweep::run(const Progress* whole) {
+  Archive& archive = record_.archive();
   Progress progress("sweep", double(designs_.size()), "designs", "then the verification", whole);
-  progress.starts_at(double(done_));
-  std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < designs_.size(); ++i) {
-    if (!outcomes_[i]) missing.push_back(i);
-  }
-  const double elapsed_before = elapsed();
   const Stopwatch stopwatch;
-  for (std::size_t first = 0; first < missing.size(); first += batch_size) {
-    tbb::parallel_for(first, std::min(first + batch_size, missing.size()), [&](std::size_t i) {
+  for (std::size_t first = 0; first < designs_.size(); first += batch_size) {
+    const std::size_t count = std::min(batch_size, designs_.size() - first);
+    std::vector<std::optional<Tried>> batch(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       if (InterruptWatch::interrupted()) return;
-      const auto evaluation = evaluation_of(designs_[missing[i]], task_, stopwatch, elapsed_before);
-      if (!evaluation) return;
-      const std::scoped_lock lock(lock_);
-      archive_and_log(record_.archive(), *evaluation);
-      add(missing[i], *evaluation);
+      batch[i] = tried_design(designs_[first + i], task_);
       progress.advance();
     });
+    // In the order of the designs, so that equal sweeps have equal archives.
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!batch[i]) continue;
+      archive_and_log(archive, batch[i]->evaluation);
+      outcomes_[first + i] = std::move(batch[i]->outcome);
+      ++done_;
+    }
   }
+  seconds_ = archive.seconds_before() + stopwatch.seconds();
 }
 
 /// The cheapest designs that keep the limits, or come closest, best first; `most` at most.
@@ -388,22 +346,14 @@ std::string how_to_go_on(const RunRecord& record) {
   return fmt::format("go on with: nlcwfs sweep --resume {}", record.folder().path().string());
 }
 
-/// On fresh screens; what an earlier run has archived is not archived again.
+/// On fresh screens.
 std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const Sweep& sweep,
                                      const Task& task, RunRecord& record, const Progress* whole) {
-  std::set<std::string> archived;
-  for (const ArchivedEvaluation& evaluation : record.archive().evaluations()) {
-    if (evaluation.stage == "verify") archived.insert(evaluation.key);
-  }
   std::vector<TriedDesign> verified;
   Progress progress = verification_progress(task.verification, best.size(), "", whole);
   for (const std::size_t design : best) {
-    const GridDesign& candidate = sweep.designs()[design];
-    const ScreenWatch watch = interruptible(progress);
-    verified.push_back(
-        archived.contains(candidate.key)
-            ? task.verification.run(candidate.design, {}, watch)
-            : verified_design(candidate.design, task.verification, record.archive(), watch));
+    verified.push_back(verified_design(sweep.designs()[design].design, task.verification,
+                                       record.archive(), interruptible(progress)));
     const bool is_whole =
         static_cast<int>(verified.back().costs.size()) == task.verification.screen_count();
     if (is_whole && (!InterruptWatch::interrupted() || verified.size() == best.size())) continue;
@@ -439,17 +389,13 @@ std::vector<std::string> draw_maps(const Task& task, const Json& grid, const Cos
 
 void run_sweep(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
-  if (command_line.resume && std::filesystem::exists(*command_line.resume / "summary.json")) {
-    fmt::print("{} has its summary.json: the run is complete, nothing is left to do.\n",
-               command_line.resume->string());
-    return;
-  }
   const Stopwatch stopwatch;
-  const Task task(configuration);
+  Task task(configuration);
   RunRecord record(command_line);
+  for (DesignTrial* trial : {&task.trial, &task.verification}) trial->remember_in(record.memory());
+  const std::size_t taken_over = record.archive().known_designs(task.trial.identity());
+  const double seconds_before = record.archive().seconds_before();
   Sweep sweep(task, record);
-  const std::size_t taken_over = sweep.done();
-  const double seconds_before = sweep.elapsed();
   sweep.run(command_line.whole);
   if (!sweep.is_complete()) {
     throw RunInterrupted(fmt::format("{} of {} designs are done; {}", sweep.done(),
@@ -461,7 +407,6 @@ void run_sweep(const CommandLine& command_line) {
   const std::vector<RankedDesign> ranking =
       ranking_of(best_of(sweep, task.candidates), sweep, task, record, command_line.whole);
   const TriedDesign& best = ranking.front().verified;
-  // The archive has its means alone; the same screens give the same again.
   const TriedDesign on_search_screens = task.trial.run(best.design);
 
   Configuration best_configuration = configuration;
@@ -491,7 +436,7 @@ void run_sweep(const CommandLine& command_line) {
         static_cast<std::int64_t>(ranking.size()) * task.verification.screen_count()) *
            static_cast<std::int64_t>(task.trial.conditions().size())},
       {"wall_seconds", seconds_before + stopwatch.seconds()},
-      {"search_seconds", sweep.elapsed()}};
+      {"search_seconds", sweep.seconds()}};
   if (!command_line.silent) {
     for (const MapFigure& map : map_figures) {
       write_grid_map(grid, map.name, map.unit,
@@ -510,7 +455,7 @@ void run_sweep(const CommandLine& command_line) {
   record.print(
       "Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
       evaluations, task.grid.size(), task.trial.screen_count(),
-      configuration.choice("search.precision"), duration_text(sweep.elapsed()),
+      configuration.choice("search.precision"), duration_text(sweep.seconds()),
       taken_over > 0 ? fmt::format(" ({} of them in an earlier run)", taken_over) : "",
       failures > 0 ? fmt::format("; {} of them failed, see sweep.csv", failures) : "");
   record.print("Best design, planes in visiting order:\n{}\n",

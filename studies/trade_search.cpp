@@ -198,6 +198,10 @@ TradeSearch::TradeSearch(const Configuration& configuration)
   if (const auto point = space.point_of(configured)) options.starts.push_back(*point);
 }
 
+void TradeSearch::remember_in(const std::shared_ptr<TrialMemory>& memory) {
+  for (DesignTrial* each : {&trial, &verification}) each->remember_in(memory);
+}
+
 TradeResult TradeSearch::run(Archive& archive) const {
   TradeResult result;
   const InterruptWatch watch;

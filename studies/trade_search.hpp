@@ -11,6 +11,7 @@
 #include "studies/configuration.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +71,9 @@ class TradeSearch {
   /// @throws InputError where values do not go together
   explicit TradeSearch(const Configuration& configuration);
 
+  /// See DesignTrial::remember_in.
+  void remember_in(const std::shared_ptr<TrialMemory>& memory);
+
   /// The search, and the verification of its front on fresh screens. An interrupt of the search
   /// ends it with the front so far, which is verified all the same; one of the verification ends it
   /// with the designs so far, or the first alone on the screens that are done.
@@ -81,8 +85,8 @@ class TradeSearch {
   const std::vector<DesignMetric> objectives;  ///< what is minimised at once
   ParetoOptions options;                       ///< of the search
   std::vector<std::string> notes;              ///< for the user
-  const DesignTrial trial;                     ///< of the search
-  const DesignTrial verification;              ///< on fresh screens
+  DesignTrial trial;                           ///< of the search
+  DesignTrial verification;                    ///< on fresh screens
 
  private:
   void verify_front(TradeResult& result, Archive& archive) const;

@@ -329,8 +329,9 @@ void note_interruption(RunRecord& record, const TradeSearch& task, const TradeRe
 void run_trade(const CommandLine& command_line) {
   const Configuration& configuration = command_line.configuration;
   const Stopwatch stopwatch;
-  const TradeSearch task(configuration);
+  TradeSearch task(configuration);
   RunRecord record(command_line);
+  task.remember_in(record.memory());
   const TradeResult result = task.run(record.archive());
   note_interruption(record, task, result);
 

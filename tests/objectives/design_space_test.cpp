@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -435,6 +437,32 @@ TEST(DesignKey, TellsDesignsApartToSevenDigits) {
     if (design_key(space.design({0, Eigen::Vector3d(-1.5, -3.0, order)})) == key) ++same;
   }
   EXPECT_EQ(same, 1);
+}
+
+TEST(ExactText, TellsEveryTwoDesignsApart) {
+  std::vector<SensorDesign> designs(17);
+  designs[1].planes[0] = std::nextafter(designs[0].planes[0], 0.0);
+  designs[2].detector.pupil_pixels = 32;
+  designs[3].detector.window = 3.0;
+  designs[4].detector.photons = 1e5;
+  designs[5].detector.read_noise = 1.0;
+  designs[6].detector.photon_rate = 1e5;
+  designs[7].detector.exposure = 1e-3;
+  designs[8].reconstruction.max_loops = 21;
+  designs[9].reconstruction.tolerance = 2e-9;
+  designs[10].reconstruction.stopping = StoppingRule::rms_change;
+  designs[11].reconstruction.relaxation_start = 0.1;
+  designs[12].reconstruction.relaxation_end = 0.1;
+  designs[13].reconstruction.initial_guess = InitialGuess::centroid;
+  designs[14].reconstruction.window = 4.0;
+  designs[15].reconstruction.outside = OutsideDetector::zero;
+  designs[16].reconstruction.oversampling = 2;
+  SensorDesign& last = designs.emplace_back();
+  last.reconstruction.unwrapping = UnwrappingMethod::quality_guided;
+  std::set<std::string> texts;
+  for (const SensorDesign& design : designs) texts.insert(exact_text(design));
+  EXPECT_EQ(texts.size(), designs.size());
+  EXPECT_EQ(exact_text(SensorDesign()), exact_text(designs[0]));
 }
 
 }  // namespace

@@ -6,7 +6,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <numbers>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -216,6 +223,120 @@ TEST_F(DesignTrialTest, EndsWithTheScreensThatAreDoneUnderAllConditions) {
   const TriedDesign first = two.on_first_screens(whole, ended.costs.size());
   EXPECT_EQ(first.costs, ended.costs);
   EXPECT_EQ(first.performances[1].screens.size(), ended.costs.size());
+}
+
+/// Keeps trials in memory, and counts.
+class MapMemory : public TrialMemory {
+ public:
+  std::optional<RememberedTrial> find(const std::string& trial,
+                                      const std::string& design) override {
+    const auto found = trials.find({trial, design});
+    if (found == trials.end()) return std::nullopt;
+    return found->second;
+  }
+  void keep(const std::string& trial, const std::string& design,
+            const RememberedTrial& remembered) override {
+    ++kept;
+    trials[{trial, design}] = remembered;
+  }
+
+  std::map<std::pair<std::string, std::string>, RememberedTrial> trials;
+  int kept = 0;
+};
+
+TEST_F(DesignTrialTest, SimulatesNoScreenThatItRemembers) {
+  const auto memory = std::make_shared<MapMemory>();
+  DesignTrial first = trial(20);
+  first.remember_in(memory);
+  const auto end_at_8 = [](std::span<const double> costs) { return costs.size() < 8; };
+  const TriedDesign begun = first.run(design_, end_at_8);
+  ASSERT_EQ(memory->kept, 1);
+
+  DesignTrial again = trial(20);
+  again.remember_in(memory);
+  const TriedDesign same = again.run(design_, end_at_8);
+  EXPECT_EQ(same.costs, begun.costs);
+  EXPECT_EQ(memory->kept, 1) << "nothing new";
+  // A clock would say where a screen was simulated anew.
+  const auto seconds = [](const TriedDesign& tried) {
+    return tried.performances.front().samples_of(performance_metric("seconds"));
+  };
+  EXPECT_EQ(seconds(same), seconds(begun));
+
+  const TriedDesign whole = again.run(design_);
+  EXPECT_EQ(memory->kept, 2);
+  EXPECT_EQ(whole.costs, trial(20).run(design_).costs) << "bit for bit";
+  std::vector<double> taken_over = seconds(whole);
+  taken_over.resize(8);
+  EXPECT_EQ(taken_over, seconds(begun));
+  // A race that asks for fewer screens than are known sees these alone.
+  EXPECT_EQ(again.run(design_, end_at_8).costs, begun.costs);
+  EXPECT_EQ(memory->kept, 2);
+}
+
+TEST_F(DesignTrialTest, RemembersWhatAnInterruptLeftOfADesign) {
+  const auto memory = std::make_shared<MapMemory>();
+  DesignTrial interrupted = trial(6);
+  interrupted.remember_in(memory);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  int screens = 0;
+  const TriedDesign part = interrupted.run(design_, {}, [&] { return ++screens < 2; });
+  ASSERT_EQ(part.costs.size(), 2u);
+  screens = 100;
+  int simulated = 0;
+  const TriedDesign whole = interrupted.run(design_, {}, [&] { return ++simulated > 0; });
+  EXPECT_EQ(simulated, 4);
+  EXPECT_EQ(whole.costs, trial(6).run(design_).costs);
+}
+
+TEST_F(DesignTrialTest, RemembersFailuresButNotBadInput) {
+  const auto memory = std::make_shared<MapMemory>();
+  DesignTrial remembering = trial(3);
+  remembering.remember_in(memory);
+  SensorDesign bad = design_;
+  bad.detector.pupil_pixels = 15;
+  EXPECT_THROW(remembering.run(bad), InputError);
+  EXPECT_EQ(memory->kept, 0);
+
+  const auto fail = [](std::span<const double>) -> bool { throw std::runtime_error("no light"); };
+  DesignTrial racing = trial(8);
+  racing.remember_in(memory);
+  EXPECT_THROW(racing.run(design_, fail), std::runtime_error);
+  EXPECT_EQ(memory->kept, 1);
+  try {
+    racing.run(design_);
+    FAIL() << "it failed when it was tried";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "no light");
+  }
+}
+
+TEST_F(DesignTrialTest, BlamesNoDesignForAMemoryThatFails) {
+  class FullMemory : public MapMemory {
+   public:
+    void keep(const std::string&, const std::string&, const RememberedTrial&) override {
+      ++kept;
+      throw TrialMemoryFailed("disk full");
+    }
+  };
+  const auto memory = std::make_shared<FullMemory>();
+  DesignTrial remembering = trial(3);
+  remembering.remember_in(memory);
+  EXPECT_THROW(remembering.run(design_), TrialMemoryFailed);
+  EXPECT_EQ(memory->kept, 1) << "not kept as the design's failure";
+}
+
+TEST_F(DesignTrialTest, HasANameOfWhatDecidesOnPerformances) {
+  const std::string name = trial(3).identity();
+  EXPECT_EQ(trial(3, {.loop_weight = 5.0}).identity(), name) << "costs are made of performances";
+  std::set<std::string> others{name, trial(4).identity()};
+  Condition weaker = tiny_condition(telescope_, 3.0, 3);
+  Condition dim = tiny_condition(telescope_, 4.0, 3);
+  dim.light = 1e5;
+  others.insert(DesignTrial({weaker}, {}).identity());
+  others.insert(DesignTrial({dim}, {}).identity());
+  others.insert(DesignTrial({tiny_condition(telescope_, 4.0, 3), dim}, {}).identity());
+  EXPECT_EQ(others.size(), 5u);
 }
 
 }  // namespace

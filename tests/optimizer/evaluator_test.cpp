@@ -191,6 +191,15 @@ TEST(Evaluator, GivesUpAfterTooManyFailuresInARow) {
   EXPECT_EQ(records, 2 * allowed);
 }
 
+TEST(Evaluator, EndsWhereTheProblemCannotGoOn) {
+  TestProblem problem = linear();
+  problem.function = [](int, const Eigen::VectorXd&) -> double { throw SearchFailed("disk full"); };
+  int records = 0;
+  Evaluator evaluator(problem, {.observer = [&](const auto&) { ++records; }});
+  EXPECT_THROW(evaluator(at(1.0, 0.0)), SearchFailed);
+  EXPECT_EQ(records, 0) << "no design is to blame";
+}
+
 TEST(Evaluator, BearsFailuresInARowLateInASearch) {
   TestProblem problem = linear();
   problem.function = [](int, const Eigen::VectorXd& x) -> double {

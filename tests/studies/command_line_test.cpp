@@ -1,5 +1,6 @@
 #include "studies/command_line.hpp"
 
+#include "results/archive.hpp"
 #include "studies/commands.hpp"
 #include "tests/message_of.hpp"
 
@@ -243,8 +244,16 @@ TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
   earlier.set("screens.count", "3", "in a test");
   const std::filesystem::path folder =
       std::filesystem::path(write_file("config.cfg", earlier.dump())).parent_path();
-  write_file("archive.sqlite", "");
+  std::filesystem::remove(folder / "archive.sqlite");  // of an earlier test
+  Archive(folder / "archive.sqlite", "sweep");
   const std::string name = folder.string();
+  EXPECT_THAT(parse_message({"trade", "--resume", name.c_str()}),
+              HasSubstr(": is a run of sweep; name the folder of an interrupted trade"));
+  EXPECT_THAT(parse({"trade", "--reuse", name.c_str()}).reuse, Optional(folder));
+  EXPECT_THAT(parse_message({"trade", "--reuse", "no/such/folder"}),
+              StartsWith("--reuse = no/such/folder: has no archive.sqlite; "));
+  EXPECT_THAT(parse_message({"screens", "--reuse", name.c_str()}),
+              HasSubstr(": screens keeps no trials; leave it away"));
   const CommandLine resumed =
       parse({"sweep", "--resume", name.c_str(), "--threads", "2", "--quiet"});
   EXPECT_THAT(resumed.resume, Optional(folder));

@@ -1,5 +1,6 @@
 #include "studies/commands.hpp"
 
+#include "results/archive.hpp"
 #include "studies/command_line.hpp"
 #include "tests/studies/program.hpp"
 
@@ -120,10 +121,10 @@ TEST_F(CommandTable, HaveExamplesThatTheCommandLineTakes) {
   std::filesystem::create_directories("results/optimize-1");
   std::filesystem::create_directories("results/sweep-1");
   const std::string everything = Configuration().dump();
-  for (const char* file : {"results/optimize-1/best.cfg", "results/sweep-1/config.cfg",
-                           "results/sweep-1/archive.sqlite"}) {
+  for (const char* file : {"results/optimize-1/best.cfg", "results/sweep-1/config.cfg"}) {
     std::ofstream(file) << everything;
   }
+  Archive("results/sweep-1/archive.sqlite", "sweep");
   for (const Command& command : commands()) {
     ASSERT_NE(command.run, nullptr) << command.name;
     for (const std::string& example : command.examples) {

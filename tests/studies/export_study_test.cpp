@@ -113,7 +113,7 @@ TEST_F(ExportStudy, AnArchiveWithoutEvaluationsIsATableWithoutRows) {
 TEST_F(ExportStudy, KeepsHostileTextOutOfTheTerminalAndOfOtherCells) {
   const std::string failure = "\"a\",b\n\x1b[31m\xff=SUM(1)";
   {
-    Archive archive("hostile.sqlite");
+    Archive archive("hostile.sqlite", "sweep");
     archive.add({.stage = "search\x1b[2J",
                  .design = R"({"planes_m":[1.0,2.0]})",
                  .cost = std::nan(""),
@@ -142,7 +142,7 @@ TEST_F(ExportStudy, RefusesWhatIsNoArchive) {
   expect_refused("nothing.sqlite",
                  "is no archive of a run of this version; name the folder of a run");
   {
-    Archive archive("broken.sqlite");
+    Archive archive("broken.sqlite", "sweep");
     archive.add({.stage = "search",
                  .design = "{\"planes_m\":",
                  .cost = 1.0,
