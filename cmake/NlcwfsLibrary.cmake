@@ -23,5 +23,6 @@ function(nlcwfs_library name)
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nlcwfs/${name}
     FILES_MATCHING
     PATTERN "*.hpp"
+    PATTERN "ranks.hpp" EXCLUDE # the program's own
     PATTERN "*-[0-9]*" EXCLUDE) # runs that were written into results/
 endfunction()

@@ -37,7 +37,13 @@ void DesignTrial::remember_in(std::shared_ptr<TrialMemory> memory) {
   identity_ = identity();
 }
 
+void DesignTrial::run_on(std::shared_ptr<TrialRunner> runner) {
+  runner_ = std::move(runner);
+  if (runner_) identity_ = identity();
+}
+
 std::string DesignTrial::identity() const {
+  if (!identity_.empty()) return identity_;
   std::string identity;
   for (const Condition& condition : conditions_) {
     identity += condition.simulation->identity();
@@ -84,17 +90,20 @@ TriedDesign DesignTrial::simulated(const SensorDesign& design, RememberedTrial k
   do {
     const int next = may_end ? std::min(std::max(first_block, 2 * done), screen_count())  //
                              : screen_count();
-    std::size_t least = static_cast<std::size_t>(next);
+    // As many are known under each condition.
+    const auto known_screens = static_cast<int>(known.performances.front().screens.size());
+    const int from = std::clamp(known_screens, done, next);
+    std::vector<Performance> block(conditions_.size());
+    if (from < next) {
+      block = runner_ ? runner_->run(*this, design, from, next - from, watch)
+                      : simulate(design, from, next - from, watch);
+    }
+    auto least = static_cast<std::size_t>(next);
     for (std::size_t k = 0; k < conditions_.size(); ++k) {
       std::vector<ScreenPerformance>& screens = tried.performances[k].screens;
       std::vector<ScreenPerformance>& before = known.performances[k].screens;
-      const int from = std::clamp(static_cast<int>(before.size()), done, next);
       std::move(before.begin() + done, before.begin() + from, std::back_inserter(screens));
-      if (from < next) {
-        Performance block = conditions_[k].simulation->evaluate(conditions_[k].lit(design), from,
-                                                                next - from, watch);
-        std::ranges::move(block.screens, std::back_inserter(screens));
-      }
+      std::ranges::move(block[k].screens, std::back_inserter(screens));
       least = std::min(least, screens.size());
     }
     if (least < static_cast<std::size_t>(next)) return on_first_screens(std::move(tried), least);
@@ -102,6 +111,16 @@ TriedDesign DesignTrial::simulated(const SensorDesign& design, RememberedTrial k
     set_costs(tried);
   } while (done < screen_count() && goes_on(tried.costs));
   return tried;
+}
+
+std::vector<Performance> DesignTrial::simulate(const SensorDesign& design, int first, int count,
+                                               const ScreenWatch& watch) const {
+  std::vector<Performance> performances;
+  for (const Condition& condition : conditions_) {
+    performances.push_back(
+        condition.simulation->evaluate(condition.lit(design), first, count, watch));
+  }
+  return performances;
 }
 
 TriedDesign DesignTrial::on_first_screens(TriedDesign tried, std::size_t count) const {

@@ -7,6 +7,7 @@
 #include "objectives/design_cost.hpp"
 #include "objectives/design_metric.hpp"
 #include "objectives/trial_memory.hpp"
+#include "objectives/trial_runner.hpp"
 
 #include <functional>
 #include <memory>
@@ -49,6 +50,9 @@ class DesignTrial {
   /// simulated is kept in it, failures too.
   void remember_in(std::shared_ptr<TrialMemory> memory);
 
+  /// From now on screens are simulated by the runner, if it is one.
+  void run_on(std::shared_ptr<TrialRunner> runner);
+
   /// A name of all that decides on the performance of a design, and of nothing else: how it is
   /// costed does not.
   std::string identity() const;
@@ -63,6 +67,12 @@ class DesignTrial {
   TriedDesign run(const SensorDesign& design,
                   const std::function<bool(std::span<const double>)>& goes_on = {},
                   const ScreenWatch& watch = {}) const;
+
+  /// The performance of a design on `count` screens alone, of which `first` is the first, under
+  /// each condition. Each screen's result is that of the trial on all of them.
+  /// @throws InputError where a condition's simulation cannot have the design
+  std::vector<Performance> simulate(const SensorDesign& design, int first, int count,
+                                    const ScreenWatch& watch = {}) const;
 
   /// A design that was tried here as if it had been tried on the first screens alone.
   /// @pre it was tried on `count` screens at least
@@ -88,6 +98,9 @@ class DesignTrial {
   /// How performances become costs.
   const DesignCost& cost() const { return cost_; }
 
+  /// What another process can make the same trial from, see trial_from_spec; empty where none can.
+  std::string spec;
+
  private:
   /// Of each condition, of each of its screens.
   std::vector<std::vector<double>> values_of(const TriedDesign& tried,
@@ -102,7 +115,8 @@ class DesignTrial {
   std::vector<Condition> conditions_;
   DesignCost cost_;
   std::shared_ptr<TrialMemory> memory_;
-  std::string identity_;  // empty without a memory
+  std::shared_ptr<TrialRunner> runner_;
+  std::string identity_;  // empty before it was needed
 };
 
 }  // namespace nlcwfs

@@ -1,5 +1,7 @@
 #include "optimizer/evaluator.hpp"
 
+#include "optimizer/all_at_once.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,7 +11,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace nlcwfs {
 namespace {
@@ -94,8 +95,7 @@ void Evaluator::evaluate_batch(std::span<const SearchPoint> requested,
   const int allowed = wanted > 0 ? allowed_evaluations(wanted) : 0;
   fresh.resize(static_cast<std::size_t>(allowed));
   const std::optional<Race> against_best = race();
-  tbb::parallel_for(std::size_t{0}, fresh.size(),
-                    [&](std::size_t i) { assess(fresh[i], against_best); });
+  all_at_once(fresh.size(), [&](std::size_t i) { assess(fresh[i], against_best); });
   std::optional<Termination> ended;
   for (Evaluation& evaluation : fresh) {
     evaluation.ended ? void(ended = evaluation.ended) : commit(evaluation);

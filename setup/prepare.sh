@@ -17,7 +17,7 @@ fail() {
 }
 
 wanted_lines() {
-  local last='no such line'
+  local last='# optional'
   grep -qsx 'ID=debian' /etc/os-release || last='# tests on Debian'
   [ "$mode" = tests ] || last='# tests'
   sed -e "/^$last\$/,\$d" -e '/^#/d' setup/packages.txt
@@ -30,9 +30,12 @@ Where the libraries are in a place of your own, tell CMake, and go on without th
 END
 }
 
+optional_lines() { sed '1,/^# optional$/d' setup/packages.txt; }
+
+# Those of the lines that it is given.
 install_packages() {
   local wanted present missing log=build/packages.log as_root=()
-  wanted=$(wanted_lines | sed 's/ .*//')
+  wanted=$(sed 's/ .*//' <<<"$1")
   # shellcheck disable=SC2086
   present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' || true)
   missing=$(comm -23 <(sort <<<"$wanted") <(sort <<<"$present") | xargs)
@@ -96,7 +99,10 @@ fi
 [[ $mode == program ]] && up_to_date && exit 0
 
 if [[ ${NLCWFS_SKIP_PACKAGES:-0} == 0 ]] && command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
-  install_packages
+  install_packages "$(wanted_lines)"
+  if [ "$mode" = tests ]; then
+    (install_packages "$(optional_lines)") || say "going on without these"
+  fi
 fi
 if ! command -v cmake >/dev/null; then
   say "CMake is not installed; building needs:"

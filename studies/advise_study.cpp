@@ -142,6 +142,7 @@ void run_advise(const CommandLine& command_line) {
   std::optional<DesignTrial> verification;
   if (command_line.verify) verification = verification_trial_of(configuration);
   if (verification) {
+    verification->run_on(command_line.runner);
     try {
       verification->checked(design);
     } catch (const InputError& error) {

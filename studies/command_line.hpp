@@ -4,6 +4,7 @@
 #include "studies/log.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 namespace nlcwfs {
 
 class Progress;
+class TrialRunner;
 
 /// What the user asked for.
 struct CommandLine {
@@ -21,6 +23,7 @@ struct CommandLine {
   std::optional<std::filesystem::path> resume;  ///< folder of the run to go on with
   std::optional<std::filesystem::path> reuse;   ///< folder of a run whose trials are taken over
   int threads = 0;                              ///< 0 = all cores
+  std::shared_ptr<TrialRunner> runner;          ///< simulates the trials; null = this process
   LogLevel log_level = LogLevel::info;          ///< what goes to standard error
   bool silent = false;              ///< print no results either: for runs that are parts of another
   const Progress* whole = nullptr;  ///< of the run that this is a part of

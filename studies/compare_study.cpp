@@ -300,7 +300,8 @@ void run_compare(const CommandLine& command_line) {
   const Configuration& configuration = compared.configuration;
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
-  const DesignTrial trial = verification_trial_of(configuration, pixels_vary(sweep, optimize));
+  DesignTrial trial = verification_trial_of(configuration, pixels_vary(sweep, optimize));
+  trial.run_on(command_line.runner);
   for (const FinishedRun* run : {&sweep, &optimize}) (void)trial.checked(run->best);
   RunRecord record(compared);
 

@@ -120,7 +120,8 @@ void run_convergence(const CommandLine& command_line) {
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   std::vector<std::string> notes;
-  const DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
+  DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
+  trial.run_on(command_line.runner);
   const SensorDesign design = trial.checked(design_of(configuration));
   RunRecord record(command_line);
 

@@ -143,6 +143,11 @@ void DesignSearch::remember_in(const std::shared_ptr<TrialMemory>& memory) {
   if (cheap_) cheap_->trial.remember_in(memory);
 }
 
+void DesignSearch::run_on(const std::shared_ptr<TrialRunner>& runner) {
+  for (DesignTrial* each : {&trial, &verification, &scan}) each->run_on(runner);
+  if (cheap_) cheap_->trial.run_on(runner);
+}
+
 DesignSearchResult DesignSearch::run(Archive& archive, const Progress* whole) const {
   DesignSearchResult result;
   const InterruptWatch watch;

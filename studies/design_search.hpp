@@ -64,6 +64,8 @@ class DesignSearch {
 
   /// See DesignTrial::remember_in.
   void remember_in(const std::shared_ptr<TrialMemory>& memory);
+  /// See DesignTrial::run_on.
+  void run_on(const std::shared_ptr<TrialRunner>& runner);
 
   /// The cheap stage where there is one, the search, the verification on fresh screens and the
   /// scan of how far the best design's variables may move. An interrupt of the search ends it with

@@ -22,6 +22,7 @@ void run_evaluate(const CommandLine& command_line) {
   const SensorDesign design = trial.checked(design_of(configuration));
   RunRecord record(command_line);
   trial.remember_in(record.memory());
+  trial.run_on(command_line.runner);
 
   const Stopwatch stopwatch;
   const TriedDesign tried = [&] {

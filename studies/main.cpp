@@ -6,11 +6,13 @@
 #include "studies/help_text.hpp"
 #include "studies/interrupt.hpp"
 #include "studies/log.hpp"
+#include "studies/ranks.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/text.hpp"
 #include "studies/version.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <exception>
@@ -25,8 +27,14 @@ namespace {
 
 enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 3 };
 
+/// Designs that wait at once for the ranks that simulate them.
+int designs_in_flight(const nlcwfs::TrialRunner* runner) {
+  constexpr int most = 128;  // each has a thread; beyond, ranks share designs
+  return runner == nullptr ? 0 : std::clamp(2 * runner->threads(), 16, most);
+}
+
 /// Runs a command, or prints its configuration.
-void run(nlcwfs::CommandLine& command_line) {
+void run(nlcwfs::CommandLine& command_line, const nlcwfs::Ranks& ranks) {
   using namespace nlcwfs;
   scale_default_planes(command_line.configuration);
   if (command_line.command == "trade") set_trade_defaults(command_line.configuration);
@@ -40,14 +48,17 @@ void run(nlcwfs::CommandLine& command_line) {
     fmt::print("{} is complete, nothing is left to do.\n", command_line.resume->string());
     return;
   }
-  const int threads =
-      command_line.threads > 0 ? command_line.threads : tbb::this_task_arena::max_concurrency();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  command_of(command_line.command).run(command_line);
+  const int threads = command_line.threads > 0 ? command_line.threads : ranks.cores();
+  command_line.runner = ranks.runner(command_line.threads);
+  const tbb::global_control limit(
+      tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(threads + designs_in_flight(command_line.runner.get())));
+  // What is not a trial has no more threads than without ranks.
+  tbb::task_arena arena(std::min(threads, tbb::this_task_arena::max_concurrency()));
+  arena.execute([&] { command_of(command_line.command).run(command_line); });
 }
 
-void run(int argc, const char* const* argv) {
+void run(int argc, const char* const* argv, const nlcwfs::Ranks& ranks) {
   using namespace nlcwfs;
   CommandLine command_line = parse_command_line(argc, argv);
   if (command_line.version) {
@@ -60,7 +71,7 @@ void run(int argc, const char* const* argv) {
     return;
   }
   try {
-    run(command_line);
+    run(command_line, ranks);
   } catch (const InputError& error) {
     throw as_typed(error, command_line.configuration);
   }
@@ -70,7 +81,8 @@ void run(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   try {
-    run(argc, argv);
+    nlcwfs::Ranks ranks;
+    ranks.rank() == 0 ? run(argc, argv, ranks) : ranks.serve();
     if (std::fflush(stdout) != 0) {
       throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
     }

@@ -143,6 +143,7 @@ void run_optimize(const CommandLine& command_line) {
   DesignSearch task(configuration);
   RunRecord record(command_line);
   task.remember_in(record.memory());
+  task.run_on(command_line.runner);
   const DesignSearchResult result = task.run(record.archive());
   if (!result.interrupted_when.empty()) record.note_interrupted(result.interrupted_when);
 

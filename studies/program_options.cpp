@@ -56,7 +56,8 @@ const std::vector<ProgramOption>& program_options() {
        [](const Command& command) { return command.name == "reconstruct"; }},
       {"verify", "", "simulate the design on fresh screens, as the section verify says",
        [](const Command& command) { return command.name == "advise"; }},
-      {"threads", "N", "use this many cores, 0 = all [0]", is_of_runs},
+      {"threads", "N", "use this many cores, 0 = all [0]; of several ranks each so many",
+       is_of_runs},
       {"log-level",
        "LEVEL",
        "what goes to standard error while the command runs: error, warning, info (progress) or "

@@ -50,7 +50,8 @@ bool has_archive(const std::filesystem::path& folder) {
 }
 
 /// Runs what of the plan is not done yet.
-void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::path& folder) {
+void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::path& folder,
+                 const std::shared_ptr<TrialRunner>& runner) {
   const auto is_done = [&](const PlannedRun& run) {
     const std::filesystem::path path = folder / run.folder;
     return is_of(run, path) && std::filesystem::exists(path / "summary.json");
@@ -75,6 +76,7 @@ void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::pat
                      .output = path,
                      .resume = {},
                      .reuse = {},
+                     .runner = runner,
                      .silent = true,
                      .whole = &progress};
     if (is_of(runs[i], path) && command_of(part.command).resumable && has_archive(path)) {
@@ -132,7 +134,7 @@ void run_reproduce(const CommandLine& command_line) {
   const std::vector<PlannedRun> runs = planned_runs(configuration);
   RunRecord record(command_line);
   const std::filesystem::path& folder = record.folder().path();
-  run_missing(runs, folder);
+  run_missing(runs, folder, command_line.runner);
 
   const ReproducedRuns reproduced(folder);
   const std::vector<Claim> claims = checked_claims(reproduced, figures);

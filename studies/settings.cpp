@@ -14,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -210,6 +211,17 @@ void require_wind(const Configuration& configuration,
                      "needs objective.wind_speed or objective.greenwood_frequency, such as "
                      "--objective.wind_speed 10");
   }
+}
+
+/// See DesignTrial::spec: how the trial is made, and every value that is set.
+std::string spec_of(std::string_view kind, std::string_view precision_key,
+                    const Configuration& configuration) {
+  std::string spec = fmt::format("{} {}\n", kind, precision_key);
+  for (const ConfigurationKey& key : configuration_keys()) {
+    const std::string& value = configuration.value_text(key.name);
+    if (!value.empty()) spec += fmt::format("{} {}\n", key.name, value);
+  }
+  return spec;
 }
 
 }  // namespace
@@ -555,11 +567,13 @@ DesignTrial trial_of(const Configuration& configuration, std::string_view precis
   // Before the screens, which may take long.
   DesignCost cost = cost_of(configuration, pixels_vary);
   simulated_design(design_of(configuration), telescope, options, truth_samples(configuration));
-  return {conditions_of(configuration, telescope, options,
-                        [&](const Seeing& seeing) {
-                          return screens_in(configuration, telescope, seeing, notes);
-                        }),
-          std::move(cost)};
+  DesignTrial trial(conditions_of(configuration, telescope, options,
+                                  [&](const Seeing& seeing) {
+                                    return screens_in(configuration, telescope, seeing, notes);
+                                  }),
+                    std::move(cost));
+  trial.spec = spec_of("search", precision_key, configuration);
+  return trial;
 }
 
 DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
@@ -568,14 +582,17 @@ DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view 
   const Telescope telescope = telescope_of(configuration);
   SimulationOptions options = simulation_options_of(configuration, precision_key);
   options.noise_seed = configuration.seed("verify.seed");
-  return {conditions_of(configuration, telescope, options,
-                        [&](const Seeing& seeing) {
-                          return simulated_screens(
-                              configuration, telescope, seeing, truth_samples(configuration),
-                              std::max(least_screens, configuration.integer("screens.count")),
-                              "verify.seed");
-                        }),
-          cost_of(configuration, pixels_vary)};
+  DesignTrial trial(
+      conditions_of(configuration, telescope, options,
+                    [&](const Seeing& seeing) {
+                      return simulated_screens(
+                          configuration, telescope, seeing, truth_samples(configuration),
+                          std::max(least_screens, configuration.integer("screens.count")),
+                          "verify.seed");
+                    }),
+      cost_of(configuration, pixels_vary));
+  trial.spec = spec_of("fresh", precision_key, configuration);
+  return trial;
 }
 
 DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary) {
@@ -605,12 +622,30 @@ DesignTrial verification_trial_of(const Configuration& configuration, bool pixel
   const int count = verification_screens(configuration);
   const auto seeings = double(seeings_of(configuration, telescope).size());
   require_memory("verify.screens", std::to_string(count), seeings * count, samples);
-  return {conditions_of(configuration, telescope, options,
-                        [&](const Seeing& seeing) {
-                          return simulated_screens(configuration, telescope, seeing, samples, count,
-                                                   "verify.seed");
-                        }),
-          cost_of(configuration, pixels_vary)};
+  DesignTrial trial(conditions_of(configuration, telescope, options,
+                                  [&](const Seeing& seeing) {
+                                    return simulated_screens(configuration, telescope, seeing,
+                                                             samples, count, "verify.seed");
+                                  }),
+                    cost_of(configuration, pixels_vary));
+  trial.spec = spec_of("verification", "simulation.precision", configuration);
+  return trial;
+}
+
+DesignTrial trial_from_spec(const std::string& spec) {
+  std::istringstream lines(spec);
+  std::string kind;
+  std::string precision_key;
+  lines >> kind >> precision_key;
+  Configuration configuration;
+  std::string key;
+  for (std::string value; lines >> key && std::getline(lines >> std::ws, value);) {
+    configuration.set(key, value, "in a trial's specification");
+  }
+  std::vector<std::string> ignored_notes;
+  if (kind == "search") return trial_of(configuration, precision_key, ignored_notes);
+  if (kind == "fresh") return fresh_trial_of(configuration, precision_key);
+  return verification_trial_of(configuration);
 }
 
 }  // namespace nlcwfs

@@ -105,4 +105,9 @@ DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view 
 /// longer matches the reconstruction's grid, so it becomes an extended one.
 DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary = false);
 
+/// The trial that one of these functions has made, from its DesignTrial::spec: the same
+/// performances, but with the costs of designs whose pixels do not vary.
+/// @throws InputError where this process cannot make it, such as without screens.file
+DesignTrial trial_from_spec(const std::string& spec);
+
 }  // namespace nlcwfs

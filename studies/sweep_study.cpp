@@ -1,4 +1,5 @@
 #include "model/input_error.hpp"
+#include "optimizer/all_at_once.hpp"
 #include "optimizer/problem.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
@@ -30,7 +31,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
 
 namespace nlcwfs {
 namespace {
@@ -38,7 +38,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Designs that are tried together: enough for many cores, as each is parallel in itself, and few
-/// enough that neighbours on the grid, which share planes, find each other's images.
+/// enough that neighbours on the grid, which share planes, find each other's images. With a runner
+/// so many for each of its threads, as all wait for the last of them.
 constexpr std::size_t batch_size = 16;
 
 /// What the configuration asks for, checked as a whole before anything is written.
@@ -161,8 +162,7 @@ class Sweep {
         outcomes_(designs_.size()) {}
 
   /// Tries every design; an interrupt ends it early.
-  /// @param whole  see Progress
-  void run(const Progress* whole);
+  void run(const CommandLine& command_line);
 
   const std::vector<GridDesign>& designs() const { return designs_; }
   /// In the order of the designs; nothing where the sweep did not get there.
@@ -181,14 +181,18 @@ class Sweep {
   double seconds_ = 0.0;
 };
 
-void Sweep::run(const Progress* whole) {
+void Sweep::run(const CommandLine& command_line) {
   Archive& archive = record_.archive();
-  Progress progress("sweep", double(designs_.size()), "designs", "then the verification", whole);
+  Progress progress("sweep", double(designs_.size()), "designs", "then the verification",
+                    command_line.whole);
   const Stopwatch stopwatch;
-  for (std::size_t first = 0; first < designs_.size(); first += batch_size) {
-    const std::size_t count = std::min(batch_size, designs_.size() - first);
+  const std::size_t together =
+      command_line.runner ? batch_size * static_cast<std::size_t>(command_line.runner->threads())
+                          : batch_size;
+  for (std::size_t first = 0; first < designs_.size(); first += together) {
+    const std::size_t count = std::min(together, designs_.size() - first);
     std::vector<std::optional<Tried>> batch(count);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    all_at_once(count, [&](std::size_t i) {
       if (InterruptWatch::interrupted()) return;
       batch[i] = tried_design(designs_[first + i], task_);
       progress.advance();
@@ -392,11 +396,14 @@ void run_sweep(const CommandLine& command_line) {
   const Stopwatch stopwatch;
   Task task(configuration);
   RunRecord record(command_line);
-  for (DesignTrial* trial : {&task.trial, &task.verification}) trial->remember_in(record.memory());
+  for (DesignTrial* trial : {&task.trial, &task.verification}) {
+    trial->remember_in(record.memory());
+    trial->run_on(command_line.runner);
+  }
   const std::size_t taken_over = record.archive().known_designs(task.trial.identity());
   const double seconds_before = record.archive().seconds_before();
   Sweep sweep(task, record);
-  sweep.run(command_line.whole);
+  sweep.run(command_line);
   if (!sweep.is_complete()) {
     throw RunInterrupted(fmt::format("{} of {} designs are done; {}", sweep.done(),
                                      sweep.designs().size(), how_to_go_on(record)));

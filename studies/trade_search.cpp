@@ -202,6 +202,10 @@ void TradeSearch::remember_in(const std::shared_ptr<TrialMemory>& memory) {
   for (DesignTrial* each : {&trial, &verification}) each->remember_in(memory);
 }
 
+void TradeSearch::run_on(const std::shared_ptr<TrialRunner>& runner) {
+  for (DesignTrial* each : {&trial, &verification}) each->run_on(runner);
+}
+
 TradeResult TradeSearch::run(Archive& archive) const {
   TradeResult result;
   const InterruptWatch watch;

@@ -332,6 +332,7 @@ void run_trade(const CommandLine& command_line) {
   TradeSearch task(configuration);
   RunRecord record(command_line);
   task.remember_in(record.memory());
+  task.run_on(command_line.runner);
   const TradeResult result = task.run(record.archive());
   note_interruption(record, task, result);
 
