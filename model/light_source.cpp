@@ -8,6 +8,12 @@
 #include <fmt/format.h>
 
 namespace nlcwfs {
+namespace {
+
+/// The most wavelengths of all planes.
+constexpr int most_lines = 100000;
+
+}  // namespace
 
 void LightSource::validate(std::size_t planes) const {
   if (bands.empty()) {
@@ -28,6 +34,11 @@ void LightSource::validate(std::size_t planes) const {
                      fmt::format("one band, or one for each of the {} planes", planes));
   }
   if (wavelengths < 1) throw InputError("source.wavelengths", wavelengths, "at least 1");
+  // Each is propagated on its own, with kernels of its own.
+  if (double(planes) * wavelengths > most_lines) {
+    throw InputError("source.wavelengths", wavelengths,
+                     fmt::format("at most {} with {} planes", most_lines / planes, planes));
+  }
   if (weights.empty()) return;
   if (weights.size() != static_cast<std::size_t>(wavelengths)) {
     throw InputError("source.weights", fmt::format("{} weights", weights.size()),

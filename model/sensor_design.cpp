@@ -1,5 +1,6 @@
 #include "model/sensor_design.hpp"
 
+#include "model/array.hpp"
 #include "model/bound_text.hpp"
 #include "model/grid_width.hpp"
 #include "model/input_error.hpp"
@@ -69,6 +70,17 @@ void SensorDesign::validate(const Telescope& telescope) const {
   if (grid_width() < detector.width() * reconstruction.oversampling) {
     throw InputError("reconstruction.window", reconstruction.window,
                      fmt::format("at least detector.window, which is {:g}", detector.window));
+  }
+  const int width = grid_width();
+  const double bytes_per_image = double(width) * width * sizeof(double);
+  if (double(planes.size()) * bytes_per_image > max_image_memory) {
+    throw InputError(
+        "sensor.planes", fmt::format("{} distances", planes.size()),
+        fmt::format("at most {:.0f}: images of {} x {} samples take {:.3g} GiB of memory, and {:g} "
+                    "GiB are allowed",
+                    std::floor(max_image_memory / bytes_per_image), width, width,
+                    double(planes.size()) * bytes_per_image / std::exp2(30),
+                    max_image_memory / std::exp2(30)));
   }
 }
 

@@ -1,5 +1,7 @@
 #include "results/design_summary.hpp"
 
+#include "results/json_numbers.hpp"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -90,7 +92,7 @@ SensorDesign design_from_json(const Json& json) {
   using enum UnwrappingMethod;
   const double photon_rate = json.at("photon_rate");
   return {.planes = json.at("planes_m"),
-          .detector = {.pupil_pixels = json.at("pupil_pixels"),
+          .detector = {.pupil_pixels = integer_from_json(json.at("pupil_pixels")),
                        .window = json.at("detector_window"),
                        // Of a rate the summary has its product with the exposure.
                        .photons = photon_rate > 0.0 ? 0.0 : json.at("photons").get<double>(),
@@ -98,7 +100,7 @@ SensorDesign design_from_json(const Json& json) {
                        .photon_rate = photon_rate,
                        .exposure = json.at("exposure_s")},
           .reconstruction = {
-              .max_loops = json.at("max_loops"),
+              .max_loops = integer_from_json(json.at("max_loops")),
               .tolerance = json.at("tolerance_m"),
               .stopping = value_of<StoppingRule>(json, "stopping", {"difference", difference},
                                                  {"rms_change", rms_change}),
@@ -108,7 +110,7 @@ SensorDesign design_from_json(const Json& json) {
                                                       {"centroid", centroid}),
               .window = json.at("reconstruction_window"),
               .outside = value_of<OutsideDetector>(json, "outside", {"free", free}, {"zero", zero}),
-              .oversampling = json.at("oversampling"),
+              .oversampling = integer_from_json(json.at("oversampling")),
               .unwrapping =
                   value_of<UnwrappingMethod>(json, "unwrapping", {"quality_guided", quality_guided},
                                              {"least_squares", least_squares})}};

@@ -1,6 +1,7 @@
 #include "results/evaluation_table.hpp"
 
 #include "results/csv_table.hpp"
+#include "results/json_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -87,7 +88,7 @@ class FlatTableBuilder {
 
 /// @param what  "design" or "performance"
 Json object_of(const std::string& text, std::string_view what, std::size_t number) {
-  Json object = Json::parse(text, nullptr, false);
+  Json object = json_of(text);
   if (!object.is_object()) {
     throw std::runtime_error(
         fmt::format("the {} of evaluation {} is no JSON object", what, number));

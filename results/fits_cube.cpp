@@ -3,9 +3,11 @@
 #include "model/input_error.hpp"
 #include "results/fits_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <span>
 #include <system_error>
@@ -23,6 +25,21 @@ FitsHandle open_to_read(const std::filesystem::path& path) {
   fits_open_diskfile(&file, literal_name(path).c_str(), READONLY, &status);
   check_fits(status);
   return FitsHandle(file);
+}
+
+/// Whether a file starts like FITS. CFITSIO would also unpack compressed files, of which a small
+/// one may fill the memory.
+bool is_plain_fits(const std::filesystem::path& path) {
+  std::array<char, 6> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  return std::string_view(start.data(), start.size()) == "SIMPLE";
+}
+
+/// The bytes of a file; without end for what is no regular file.
+double size_of(const std::filesystem::path& path) {
+  std::error_code failure;
+  const auto size = std::filesystem::file_size(path, failure);
+  return failure ? HUGE_VAL : double(size);
 }
 
 std::string read_unit(fitsfile* file) {
@@ -162,6 +179,9 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) refuse("there is no such file");
   if (std::filesystem::is_directory(path, failure)) refuse("this is a directory");
+  if (!is_plain_fits(path)) {
+    refuse("it cannot be read: it is no FITS file, or compressed and must be unpacked first");
+  }
   FitsCube cube;
   try {
     const FitsHandle file = open_to_read(path);
@@ -178,12 +198,22 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
     if (allowed == FitsShape::square && shape[0] != shape[1]) {
       refuse(fmt::format("its slices are {} x {}, not square", shape[0], shape[1]));
     }
+    if (std::ranges::min(shape) <= 0) refuse("it is empty");
+    // As floating point: the product may be too large for an integer.
+    double values = 1.0;
+    for (const LONGLONG length : shape) values *= double(length);
+    if (values * sizeof(double) > max_image_memory) {
+      refuse(fmt::format("its {} x {} x {:.0f} values take more than {:g} GiB of memory", shape[0],
+                         shape[1], double(shape[2]) * double(shape[3]),
+                         max_image_memory / std::exp2(30)));
+    }
     const LONGLONG slices = shape[2] * shape[3];
-    if (shape[0] == 0 || shape[1] == 0 || slices == 0) refuse("it is empty");
-    if (double(shape[0]) * double(shape[1]) * double(shape[2]) * double(shape[3]) * sizeof(double) >
-        max_image_memory) {
-      refuse(fmt::format("its {} x {} x {} values take more than {:g} GiB of memory", shape[0],
-                         shape[1], slices, max_image_memory / std::exp2(30)));
+    LONGLONG data_start = 0;
+    fits_get_hduaddrll(file.get(), nullptr, &data_start, nullptr, &status);
+    check_fits(status);
+    // Before room is made for what is not there. BITPIX, CFITSIO's type, is below 0 for reals.
+    if (double(data_start) + values * std::abs(type) / 8.0 > size_of(path)) {
+      refuse("it cannot be read: it is cut short");
     }
     cube.sets = static_cast<std::size_t>(shape[3]);
     cube.unit = read_unit(file.get());

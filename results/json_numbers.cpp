@@ -1,6 +1,10 @@
 #include "results/json_numbers.hpp"
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -19,6 +23,15 @@ void flatten(const Json& matrix, std::vector<double>& numbers) {
 
 double number_from_json(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+int integer_from_json(const Json& json) {
+  const double number = json.get<double>();
+  // Before a conversion that is not defined for what an int cannot hold.
+  if (std::trunc(number) != number || std::abs(number) > std::numeric_limits<int>::max()) {
+    throw std::runtime_error(fmt::format("{} should be a whole number", json.dump()));
+  }
+  return static_cast<int>(number);
 }
 
 MeanAndError mean_from_json(const Json& json) {

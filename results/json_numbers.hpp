@@ -9,10 +9,13 @@
 namespace nlcwfs {
 
 // Numbers as summaries have them. JSON has none for what is not finite: there it has null, which is
-// read as NaN. All throw nlohmann::json::exception for other values.
+// read as NaN. All throw std::exception, of nlohmann::json or not, for other values.
 
 /// Of a number, or null.
 double number_from_json(const nlohmann::ordered_json& json);
+
+/// Of a whole number that is an int.
+int integer_from_json(const nlohmann::ordered_json& json);
 
 /// Of {"mean": ..., "standard_error": ...}.
 MeanAndError mean_from_json(const nlohmann::ordered_json& json);

@@ -2,6 +2,7 @@
 #include "objectives/design_comparison.hpp"
 #include "results/archive.hpp"
 #include "results/design_summary.hpp"
+#include "results/json_text.hpp"
 #include "studies/design_text.hpp"
 #include "studies/grid_picture.hpp"
 #include "studies/run_record.hpp"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -62,7 +64,8 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
   run.configuration.read_file(folder / "config.cfg");
   try {
     std::ifstream file(folder / "summary.json");
-    run.summary = Json::parse(file);
+    run.summary = json_of(std::string(std::istreambuf_iterator<char>(file), {}));
+    if (!run.summary.is_object()) throw std::runtime_error("it is no JSON object");
     const std::string made_by = run.summary.at("command");
     if (made_by != command) {
       throw InputError(argument, shown,

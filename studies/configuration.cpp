@@ -293,6 +293,8 @@ void Configuration::read_file(const std::filesystem::path& path) {
           "--config", name,
           fmt::format("line {} is no text; give the path of a configuration file", number));
     }
+    // Not parsed again and again under a long header.
+    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
     std::istringstream lines(fmt::format("{}\n{}", header, line));
     std::vector<po::option> options;
     try {

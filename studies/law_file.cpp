@@ -2,6 +2,7 @@
 
 #include "model/input_error.hpp"
 #include "results/design_summary.hpp"
+#include "results/json_text.hpp"
 #include "studies/text.hpp"
 
 #include <algorithm>
@@ -223,8 +224,7 @@ Json to_json(const LawFile& file) {
 }
 
 LawFile parse_law_file(std::string_view text, const std::string& name) {
-  constexpr bool allow_exceptions = false;
-  const Json json = Json::parse(text, nullptr, allow_exceptions);
+  const Json json = json_of(text);
   if (!json.is_object() || !(json.contains("conditions") || json.contains("data"))) {
     throw InputError("advise.law", one_line(name),
                      "is no law file; give the law.json that a run of law or advise left");

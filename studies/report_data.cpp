@@ -6,6 +6,7 @@
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/fits_cube.hpp"
+#include "results/json_text.hpp"
 #include "results/report_page.hpp"
 #include "studies/design_text.hpp"
 #include "studies/grid_picture.hpp"
@@ -104,8 +105,8 @@ Json summary_of(const Path& folder) {
   if (!text) {
     refuse(folder, "has no summary.json that can be read; name the folder of a run that is done");
   }
-  Json summary = Json::parse(*text, nullptr, false);
-  if (summary.is_discarded() || !summary.is_object()) {
+  Json summary = json_of(*text);
+  if (!summary.is_object()) {
     refuse(folder, "its summary.json is no JSON object; name the folder of a run that is done");
   }
   return summary;
@@ -116,13 +117,18 @@ const PageFiles& files_of(const Path& folder, const Json& summary) {
   const auto found = std::ranges::find_if(
       page_files(), [&](const PageFiles& files) { return command == std::string(files.command); });
   if (found == page_files().end()) {
-    refuse(folder,
-           fmt::format("its summary.json is of the command {}, and there is a page for the "
-                       "results of {}",
-                       one_line(command.dump()),
-                       fmt::join(page_files() | std::views::transform(&PageFiles::command), ", ")));
+    std::vector<std::string_view> commands;
+    for (const PageFiles& files : page_files()) commands.push_back(files.command);
+    refuse(folder, fmt::format("its summary.json is of the command {}, and there is a page for the "
+                               "results of {}",
+                               one_line(command.dump()), fmt::join(commands, ", ")));
   }
   return *found;
+}
+
+std::string version_of(const Json& summary) {
+  const auto version = summary.find("version");
+  return version != summary.end() && version->is_string() ? version->get<std::string>() : "";
 }
 
 /// When a file was written, UTC.
@@ -293,7 +299,7 @@ Json Gathering::data() {
   const PageFiles& files = files_of(folder_, summary);
   summary.erase("config");
   data_ = {{"command", summary.at("command")},
-           {"version", summary.value("version", "")},
+           {"version", version_of(summary)},
            {"written", time_of(folder_ / "summary.json")},
            {"notes", Json::array()},
            {"summary", summary}};

@@ -29,7 +29,7 @@ std::string reached(const Json& design, std::string_view screens) {
   const Json& performance = design.at("performance");
   return fmt::format("residual WFE {} nm after {} loops on {} {}",
                      figure(performance, "residual_wfe_nm"), figure(performance, "loops"),
-                     performance.at("screens").get<int>(), screens);
+                     integer_from_json(performance.at("screens")), screens);
 }
 
 /// A number without more digits than timings hold, and without an exponent.
@@ -50,8 +50,9 @@ std::string of_optimize(const Json& summary) {
   const Json& best = summary.at("best");
   const Json& gain = summary.at("improvement");
   const std::size_t conditions = best.contains("conditions") ? best.at("conditions").size() : 1;
-  const std::size_t screens = best.at("performance").at("screens").get<std::size_t>() /
-                              std::max<std::size_t>(conditions, 1);
+  const std::size_t screens =
+      static_cast<std::size_t>(integer_from_json(best.at("performance").at("screens"))) /
+      std::max<std::size_t>(conditions, 1);
   return fmt::format(
       "Best design: {}. {}", reached(best, "fresh screens"),
       baseline_verdict_text(improvement({number_from_json(gain.at("cost")),
@@ -61,7 +62,7 @@ std::string of_optimize(const Json& summary) {
 }
 
 std::string of_sweep(const Json& summary) {
-  return fmt::format("The best of {} designs: {}.", summary.at("evaluations").get<int>(),
+  return fmt::format("The best of {} designs: {}.", integer_from_json(summary.at("evaluations")),
                      reached(summary.at("best"), "fresh screens"));
 }
 
@@ -73,9 +74,9 @@ std::string of_trade(const Json& summary) {
   std::string text = fmt::format(
       "Of {} designs that were tried, {} are verified on fresh screens, and {} of them stay on the "
       "front there. ",
-      summary.at("evaluations").get<int>(), front.size(), standing);
+      integer_from_json(summary.at("evaluations")), front.size(), standing);
   if (summary.at("knee").is_null()) return text + "None keeps objective.limits: there is no front.";
-  const auto knee = summary.at("knee").get<std::size_t>();
+  const auto knee = static_cast<std::size_t>(integer_from_json(summary.at("knee")));
   return text + fmt::format("The knee of the front is design {}: {}.", knee,
                             reached(front.at(knee), "fresh screens"));
 }
@@ -146,14 +147,14 @@ std::string of_scale(const Json& summary) {
 
 std::string of_screens(const Json& summary) {
   return fmt::format("{} screens: piston-removed variance {} rad^2, Kolmogorov's {:.4g} rad^2.",
-                     summary.at("screens").get<int>(),
+                     integer_from_json(summary.at("screens")),
                      figure(summary, "piston_removed_variance_rad2"),
                      number_from_json(summary.at("kolmogorov_piston_removed_variance_rad2")));
 }
 
 std::string of_benchmark(const Json& summary) {
   const Json& timing = summary.at("timing");
-  const int threads = timing.at("threads").get<int>();
+  const int threads = integer_from_json(timing.at("threads"));
   return fmt::format("{} loops per second in double precision, {} in single, on {} thread{}.",
                      two_digits(number_from_json(timing.at("double").at("loops_per_second"))),
                      two_digits(number_from_json(timing.at("single").at("loops_per_second"))),
@@ -161,8 +162,9 @@ std::string of_benchmark(const Json& summary) {
 }
 
 std::string of_export(const Json& summary) {
-  return fmt::format("{} evaluations, {} of them failed.", summary.at("evaluations").get<int>(),
-                     summary.at("failed").get<int>());
+  return fmt::format("{} evaluations, {} of them failed.",
+                     integer_from_json(summary.at("evaluations")),
+                     integer_from_json(summary.at("failed")));
 }
 
 std::string of_reconstruct(const Json& summary) {
@@ -174,7 +176,7 @@ std::string of_reconstruct(const Json& summary) {
       consistency.at("verdict").get<std::string>(),
       misfit > 0.0 ? fmt::format("in plane {} they differ most, by {:.2g} % beyond what noise "
                                  "explains",
-                                 consistency.at("worst_plane").get<int>(), 100.0 * misfit)
+                                 integer_from_json(consistency.at("worst_plane")), 100.0 * misfit)
                    : "noise explains all their differences");
 }
 

@@ -2,9 +2,13 @@
 
 #include "results/csv_table.hpp"
 #include "results/json_numbers.hpp"
+#include "results/json_text.hpp"
 
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,12 +20,12 @@ const Json& ReproducedRuns::summary(const std::string& run) const {
   const auto known = read_.find(run);
   if (known != read_.end()) return known->second;
   const std::filesystem::path path = folder_ / run / "summary.json";
-  try {
-    std::ifstream file(path);
-    return read_.emplace(run, Json::parse(file)).first->second;
-  } catch (const Json::exception& error) {
-    throw std::runtime_error(fmt::format("cannot read {}: {}", path.string(), error.what()));
+  std::ifstream file(path);
+  Json summary = json_of(std::string(std::istreambuf_iterator<char>(file), {}));
+  if (!summary.is_object()) {
+    throw std::runtime_error(fmt::format("cannot read {}: it is no JSON object", path.string()));
   }
+  return read_.emplace(run, std::move(summary)).first->second;
 }
 
 std::vector<double> ReproducedRuns::screens(const std::string& run,

@@ -1,5 +1,6 @@
 #include "model/frequency_response.hpp"
 #include "model/input_error.hpp"
+#include "objectives/design_grid.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
 #include "results/map_picture.hpp"
@@ -84,6 +85,11 @@ Task::Task(const Configuration& configuration)
       distances(axis_of(configuration, "response.distances")) {
   require_one_condition(configuration);
   require_memory("screens.count", std::to_string(wavefronts), wavefronts, samples);
+  if (double(frequencies.size()) * double(distances.size()) > double(DesignGrid::most_points)) {
+    throw InputError("response.distances", fmt::format("{} distances", distances.size()),
+                     fmt::format("at most {} with {} frequencies",
+                                 DesignGrid::most_points / frequencies.size(), frequencies.size()));
+  }
   for (const double distance : distances) {
     SensorDesign pair = design_of(configuration);
     pair.planes = {-distance, distance};

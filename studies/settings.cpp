@@ -580,17 +580,18 @@ DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view 
                            bool pixels_vary) {
   constexpr int least_screens = 8;
   const Telescope telescope = telescope_of(configuration);
+  const int samples = truth_samples(configuration);
+  const int count = std::max(least_screens, configuration.integer("screens.count"));
+  const auto seeings = double(seeings_of(configuration, telescope).size());
+  require_memory("screens.count", std::to_string(count), seeings * count, samples);
   SimulationOptions options = simulation_options_of(configuration, precision_key);
   options.noise_seed = configuration.seed("verify.seed");
-  DesignTrial trial(
-      conditions_of(configuration, telescope, options,
-                    [&](const Seeing& seeing) {
-                      return simulated_screens(
-                          configuration, telescope, seeing, truth_samples(configuration),
-                          std::max(least_screens, configuration.integer("screens.count")),
-                          "verify.seed");
-                    }),
-      cost_of(configuration, pixels_vary));
+  DesignTrial trial(conditions_of(configuration, telescope, options,
+                                  [&](const Seeing& seeing) {
+                                    return simulated_screens(configuration, telescope, seeing,
+                                                             samples, count, "verify.seed");
+                                  }),
+                    cost_of(configuration, pixels_vary));
   trial.spec = spec_of("fresh", precision_key, configuration);
   return trial;
 }

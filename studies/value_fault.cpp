@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -112,8 +113,10 @@ std::string repeated_part(const ConfigurationKey& key, std::string_view value) {
   if (!is_tried_one_by_one(key)) return {};
   const std::vector<std::string> parts = parts_of(value, ',');
   const std::vector<std::string> texts = comparable(key, parts);
+  std::map<std::string_view, std::size_t> places;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (std::ranges::count(texts, texts[i]) > 1) return std::string(trimmed(parts[i]));
+    const auto [first, is_new] = places.emplace(texts[i], i);
+    if (!is_new) return std::string(trimmed(parts[first->second]));
   }
   return {};
 }

@@ -72,5 +72,12 @@ TEST(LightSource, RefusesWhatDoesNotGoTogether) {
               HasSubstr("not all 0"));
 }
 
+TEST(LightSource, HasNoMoreWavelengthsThanAreBounded) {
+  const LightSource source{.bands = {{500 * nm, 600 * nm}}, .wavelengths = 1000};
+  EXPECT_EQ(message_of([&] { source.validate(100); }), "");
+  EXPECT_EQ(message_of([&] { source.validate(101); }),
+            "source.wavelengths = 1000: at most 990 with 101 planes");
+}
+
 }  // namespace
 }  // namespace nlcwfs

@@ -42,6 +42,21 @@ TEST(SensorDesign, NeedsTwoPlanes) {
   EXPECT_EQ(message_after([](SensorDesign& design) { design.planes = {0.0, 0.0}; }), "");
 }
 
+TEST(SensorDesign, ImagesFitIntoTheMemoryThatIsAllowed) {
+  // 8192 x 8192 samples of 8 bytes are half a GiB.
+  const auto with_planes = [](std::size_t planes) {
+    return [=](SensorDesign& design) {
+      design.planes.assign(planes, 47e3);
+      design.detector.pupil_pixels = 1024;
+      design.reconstruction.window = 8.0;
+    };
+  };
+  EXPECT_EQ(message_after(with_planes(32)), "");
+  EXPECT_EQ(message_after(with_planes(33)),
+            "sensor.planes = 33 distances: at most 32: images of 8192 x 8192 samples take 16.5 GiB "
+            "of memory, and 16 GiB are allowed");
+}
+
 TEST(SensorDesign, PlanesStayBelowAFresnelNumberOfATenth) {
   // D^2 / (0.1 lambda) = 4699.248 km.
   const auto with_plane = [](double plane) {

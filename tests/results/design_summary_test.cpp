@@ -160,6 +160,16 @@ TEST(DesignSummary, OfNoDesignIsRefused) {
     json[member] = Json::object();
     EXPECT_THROW(design_from_json(json), Json::exception) << member;
   }
+  for (const char* member : {"pupil_pixels", "max_loops", "oversampling"}) {
+    for (const double number : {0.5, 1e300, -1e300, 2147483648.0}) {
+      Json json = whole;
+      json[member] = number;
+      EXPECT_THAT(
+          [&] { design_from_json(json); },
+          testing::ThrowsMessage<std::runtime_error>(testing::EndsWith("should be a whole number")))
+          << member;
+    }
+  }
   for (const char* word : {"stopping", "initial_guess", "outside", "unwrapping"}) {
     Json json = whole;
     json[word] = "best";

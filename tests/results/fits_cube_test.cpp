@@ -284,6 +284,25 @@ TEST_F(FitsCubeFile, RefusesATruncatedFileAndItsHeaderAlone) {
   }
 }
 
+TEST_F(FitsCubeFile, MakesNoRoomForWhatIsNotThere) {
+  const auto refusal_of_header = [](const std::vector<int>& shape) {
+    save("header.fits", fits_file(image_cards(8, shape), ""));
+    return refusal("header.fits");
+  };
+  EXPECT_THAT(refusal_of_header({46341, 46341}), HasSubstr("take more than 16 GiB of memory"));
+  EXPECT_THAT(refusal_of_header({1 << 30, 1 << 30, 1 << 30}),
+              HasSubstr("take more than 16 GiB of memory"));
+  EXPECT_THAT(refusal_of_header({46340, 46340}), HasSubstr("cannot be read: it is cut short"));
+  EXPECT_THAT(refusal_of_header({1, 1, 2147483647}), HasSubstr("cannot be read: it is cut short"));
+}
+
+TEST_F(FitsCubeFile, RefusesCompressedFiles) {
+  for (const char* start : {"\x1f\x8b\x08", "\x1f\x9d\x90", "\x1f\xa0", "PK\x03\x04", "BZh9"}) {
+    save("packed.fits", start + std::string(5000, '\xff'));
+    EXPECT_THAT(refusal("packed.fits"), HasSubstr("must be unpacked first"));
+  }
+}
+
 TEST_F(FitsCubeFile, RefusesOtherShapes) {
   const auto refusal_of_shape = [](const std::vector<int>& shape) {
     save("shape.fits", fits_file(image_cards(-64, shape), doubles(std::vector<double>(24, 1.0))));

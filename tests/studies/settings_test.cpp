@@ -10,6 +10,7 @@
 namespace nlcwfs {
 namespace {
 
+using testing::AllOf;
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -284,6 +285,17 @@ TEST(Settings, TheVerificationsScreensMustBeFresh) {
                 verification_trial_of(with({{"verify.seed", "7"}, {"screens.seed", "7"}}));
               }),
               HasSubstr("verify.seed = 7: another seed than screens.seed"));
+}
+
+TEST(Settings, FreshScreensFitIntoTheMemoryThatIsAllowed) {
+  // One screen in each seeing has room, but not as many as tell designs apart.
+  EXPECT_THAT(message_of([] {
+                fresh_trial_of(with({{"screens.count", "1"},
+                                     {"simulation.pupil_samples", "8192"},
+                                     {"seeing.d_over_r0", "1,2,3,4,5"}}),
+                               "search.precision");
+              }),
+              AllOf(HasSubstr("screens.count = 8"), HasSubstr("take 20 GiB of memory")));
 }
 
 TEST(Settings, TheVerificationHasFourTimesTheSearchsScreensUnlessSaidOtherwise) {
