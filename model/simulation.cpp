@@ -67,17 +67,24 @@ class Experiment {
                         ScreenRecord* record = nullptr) const {
     using Clock = std::chrono::steady_clock;
     const auto data_start = Clock::now();
+    const auto require_time = [&] {
+      const std::chrono::duration<double> elapsed = Clock::now() - data_start;
+      if (elapsed.count() <= options_.time_limit) return;
+      throw std::runtime_error(fmt::format(
+          "a wavefront took longer than simulation.time_limit, {:g} s", options_.time_limit));
+    };
     const std::vector<ImageCache::SharedImage> light = noise_free_images(truth, screen);
     std::vector<Image<double>> images = detector_images(light, screen);
 
     const auto start = Clock::now();
     ScreenPerformance result;
-    const auto follow = [&](const Field<double>& pupil) {
+    const auto after_loop = [&](const Field<double>& pupil) {
+      require_time();
+      if (!follows_loops) return;
       result.residual_after_loops.push_back(
           measured(pupil, reconstructor_.unwrapper().unwrap(pupil), truth).residual_wfe);
     };
-    const Reconstruction reconstruction = follows_loops ? reconstructor_.reconstruct(images, follow)
-                                                        : reconstructor_.reconstruct(images);
+    const Reconstruction reconstruction = reconstructor_.reconstruct(images, after_loop);
     const Image<double> phase = reconstructor_.unwrapper().unwrap(reconstruction.pupil_field);
     const std::chrono::duration<double> elapsed = Clock::now() - start;
 
@@ -331,6 +338,7 @@ std::string Simulation::identity() const {
     text += fmt::format(" {}:{}", band.shortest, band.longest);
   }
   for (const double weight : source.weights) text += fmt::format(" {}", weight);
+  if (std::isfinite(options_.time_limit)) text += fmt::format(" {} s", options_.time_limit);
   // Names of names: each depends on all that came before.
   boost::uuids::uuid name = boost::uuids::name_generator_sha1(boost::uuids::nil_uuid())(text);
   for (const PhaseScreen& screen : screens_) {

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct SimulationOptions {
       Precision::double_precision;  ///< of the reconstruction; images are made in double precision
   std::uint64_t noise_seed = 1;  ///< photon and read noise; streams are keyed by screen and plane
   LightSource source = {};       ///< wavelengths of the light
+  /// That one wavefront may take, s: looked at between its loops. A design with a slower one fails.
+  double time_limit = std::numeric_limits<double>::infinity();
 };
 
 /// What of the program decides on the result of a simulation, beside its input: raised by every
@@ -64,6 +67,7 @@ class Simulation {
              SimulationOptions options);
 
   /// @throws InputError where the design is not valid or does not fit the truth's samples
+  /// @throws std::runtime_error where a wavefront takes too long or ends in what is no number
   Performance evaluate(const SensorDesign& design, const ScreenWatch& watch = {}) const;
 
   /// The same on `count` screens alone, of which `first` is the first; they are counted from 0.
@@ -83,9 +87,9 @@ class Simulation {
   /// See simulated_design.
   SensorDesign checked(SensorDesign design) const;
 
-  /// A name of all that decides on a design's result: model_version, telescope, wavefronts,
-  /// options. Equal simulations have equal names, on all machines with the same floating point
-  /// format.
+  /// A name of all that decides on a design's result: model_version, telescope, wavefronts and
+  /// options, the time limit too. Equal simulations have equal names, on all machines with the same
+  /// floating point format.
   std::string identity() const;
 
   /// The telescope that the wavefronts have come through.

@@ -62,8 +62,7 @@ TriedDesign DesignTrial::run(const SensorDesign& design,
   const std::string text = exact_text(design);
   if (auto remembered = memory_->find(identity_, text)) {
     if (!remembered->failure.empty()) throw std::runtime_error(remembered->failure);
-    // Of anything else no trial of this name has left it.
-    if (remembered->performances.size() == conditions_.size()) known = std::move(*remembered);
+    if (may_be_of(design, remembered->performances)) known = std::move(*remembered);
   }
   const std::size_t known_screens = known.performances.front().screens.size();
   TriedDesign tried;
@@ -79,6 +78,18 @@ TriedDesign DesignTrial::run(const SensorDesign& design,
     memory_->keep(identity_, text, {.performances = tried.performances});
   }
   return tried;
+}
+
+bool DesignTrial::may_be_of(const SensorDesign& design,
+                            const std::vector<Performance>& performances) const {
+  if (performances.size() != conditions_.size()) return false;
+  const std::size_t screens = performances.front().screens.size();
+  return std::ranges::all_of(performances, [&](const Performance& performance) {
+    return performance.screens.size() == screens &&
+           std::ranges::all_of(performance.screens, [&](const ScreenPerformance& screen) {
+             return screen.captured_energy.size() == design.planes.size();
+           });
+  });
 }
 
 TriedDesign DesignTrial::simulated(const SensorDesign& design, RememberedTrial known,

@@ -102,6 +102,9 @@ class DesignTrial {
   std::string spec;
 
  private:
+  /// Whether a trial of the design can have left these; anything else is not used.
+  bool may_be_of(const SensorDesign& design, const std::vector<Performance>& performances) const;
+
   /// Of each condition, of each of its screens.
   std::vector<std::vector<double>> values_of(const TriedDesign& tried,
                                              const DesignMetric& metric) const;

@@ -232,8 +232,6 @@ void Evaluator::commit(Evaluation& evaluation) {
     answer.failed = true;
     answer.value = penalty();
     last_failure_ = record.failure;
-    ++failures_;
-    ++failures_in_a_row_;
   } else {
     answer.value = record.cost;
     if (record.violation > 0.0) {
@@ -248,16 +246,16 @@ void Evaluator::commit(Evaluation& evaluation) {
         evaluations_without_improvement_ = 0;
       }
     }
-    failures_in_a_row_ = 0;
   }
+  failure_count_.add(answer.failed);
   cache_.emplace(record.key, answer);
   record.best_cost = best_ ? best_->cost : std::numeric_limits<double>::infinity();
   if (options_.observer) options_.observer(record);
 
-  if (failures_in_a_row_ >= failures_in_a_row_allowed && 2 * failures_in_a_row_ >= evaluations_) {
+  if (failure_count_.is_too_high()) {
     throw SearchFailed(
         fmt::format("the search failed: {} evaluations in a row failed, the last with {}",
-                    failures_in_a_row_, last_failure_));
+                    failure_count_.in_a_row(), last_failure_));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "optimizer/failure_count.hpp"
 #include "optimizer/problem.hpp"
 #include "optimizer/race.hpp"
 
@@ -91,11 +92,6 @@ class SearchFailed : public std::runtime_error {
 /// ignored.
 class Evaluator {
  public:
-  /// After this many failures with no success in between, where they are at least half of all
-  /// evaluations, the search is given up as failed. (A local search beside a region of failures may
-  /// meet as many late in a search that is going well.)
-  static constexpr int failures_in_a_row_allowed = 20;
-
   /// @param problem  used by reference
   Evaluator(Problem& problem, EvaluatorOptions options);
 
@@ -130,7 +126,7 @@ class Evaluator {
   /// Designs that were tried, failures included.
   int evaluations() const { return evaluations_; }
   /// Designs that could not be tried.
-  int failures() const { return failures_; }
+  int failures() const { return failure_count_.failures(); }
   /// Points whose design had been tried already.
   int cache_hits() const { return cache_hits_; }
   const std::string& last_failure() const { return last_failure_; }  ///< empty without any
@@ -199,8 +195,7 @@ class Evaluator {
   std::map<Slice, EvaluatedDesign> best_of_slice_;
   double worst_cost_ = 0.0;  ///< of the successes; meaningless before there is one
   int evaluations_ = 0;
-  int failures_ = 0;
-  int failures_in_a_row_ = 0;
+  FailureCount failure_count_;
   int evaluations_without_improvement_ = 0;
   int cache_hits_ = 0;
   std::string last_failure_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -34,9 +35,9 @@ struct ArchivedTrial {
   bool operator==(const ArchivedTrial&) const = default;  ///< to the last bit
 };
 
-/// What a run has found out, in an SQLite file: the table `evaluations` of what it reports, and the
-/// table `trials` of every screen that was simulated, from which the run can go on. What is added
-/// is on disk when the function returns. One archive may be used by many threads.
+/// What a run has found out, in an SQLite file: the table `trials` of every screen that was
+/// simulated, from which the run can go on, and the table `evaluations` of what it reports, which
+/// it can make again from the trials. One archive may be used by many threads.
 class Archive {
  public:
   /// Makes it.
@@ -47,9 +48,15 @@ class Archive {
 
   /// Opens that of an earlier run, which may be a run of an older version.
   /// @throws std::runtime_error also where there is none, its tables are not those of an archive,
-  /// or
-  ///         a newer version has made it
+  ///         or a newer version has made it
   static Archive reopened(const std::filesystem::path& path);
+
+  /// Not while it is in use.
+  Archive(Archive&& other) noexcept;
+  Archive& operator=(Archive&&) = delete;
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
+  ~Archive();
 
   /// Whose run it is.
   std::string command() const;
@@ -57,8 +64,12 @@ class Archive {
   /// Whether a run can go on from it: not from that of an older version.
   bool has_trials() const;
 
-  /// Appends an evaluation.
+  /// Appends an evaluation. It is on disk with the next trial that is kept, or after commit(), or
+  /// when the archive is gone.
   void add(const ArchivedEvaluation& evaluation);
+
+  /// Puts all evaluations on disk.
+  void commit();
 
   /// Everything that was added, in that order.
   std::vector<ArchivedEvaluation> evaluations() const;
@@ -73,7 +84,9 @@ class Archive {
   /// again.
   void clear_evaluations();
 
-  /// Keeps what is known of a design in a trial, in place of what was known before.
+  /// Keeps what is known of a design in a trial, in place of what was known before. It is on disk
+  /// when the function returns. What many threads keep at once goes there together: a disk takes
+  /// about as long for all as for one.
   void keep(const std::string& trial, const std::string& design, const ArchivedTrial& known);
 
   /// Nothing where the design is not known.
@@ -84,16 +97,34 @@ class Archive {
 
   [[noreturn]] void fail(std::string_view action) const;
   void execute(const char* sql);
+  /// @pre lock_ is held
+  void commit_added();
+  /// @pre lock_ is held, and a transaction is open
+  void write_added();
   int layout() const;
+
+  /// What a thread keeps.
+  struct Keeping;
+  /// What threads wait for.
+  struct Queue {
+    std::mutex lock;
+    std::condition_variable has_changed;
+    std::vector<Keeping*> waiting;
+    bool is_busy = false;  // a thread writes what all before have given it
+  };
+  void write(const std::vector<Keeping*>& all);
 
   struct Close {
     void operator()(sqlite3* database) const;
   };
   std::filesystem::path path_;
   std::unique_ptr<sqlite3, Close> database_;
+  std::vector<ArchivedEvaluation> added_;  // that are not on disk
   double seconds_before_ = 0.0;
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
-  std::unique_ptr<std::mutex> lock_ = std::make_unique<std::mutex>();  // movable
+  // Movable.
+  std::unique_ptr<std::mutex> lock_ = std::make_unique<std::mutex>();
+  std::unique_ptr<Queue> queue_ = std::make_unique<Queue>();
 };
 
 }  // namespace nlcwfs

@@ -1,5 +1,6 @@
 #include "results/evaluation_table.hpp"
 
+#include "model/array.hpp"
 #include "results/csv_table.hpp"
 #include "results/json_text.hpp"
 
@@ -35,7 +36,10 @@ class FlatTableBuilder {
     for (const std::string& name : names) column(name, unit_in(name));
   }
 
-  void start_row() { ++table_.rows; }
+  void start_row() {
+    ++table_.rows;
+    require_memory();
+  }
 
   /// Sets what is in a JSON value, by the names of its members.
   void set_all(const std::string& name, const std::string& unit, const Json& value) {
@@ -70,8 +74,22 @@ class FlatTableBuilder {
  private:
   TableColumn& column(const std::string& name, const std::string& unit) {
     const auto [place, is_new] = places_.try_emplace(name, table_.columns.size());
-    if (is_new) table_.columns.push_back({name, unit, {}});
+    if (is_new) {
+      table_.columns.push_back({name, unit, {}});
+      require_memory();
+    }
     return table_.columns[place->second];
+  }
+
+  /// Every column has a cell in every row.
+  void require_memory() const {
+    const double bytes = double(table_.rows) * double(table_.columns.size()) * sizeof(TableCell);
+    if (bytes <= max_image_memory) return;
+    throw std::runtime_error(fmt::format(
+        "a table of {} evaluations with {} columns takes {:.3g} GiB of memory, and {:g} GiB are "
+        "allowed",
+        table_.rows, table_.columns.size(), bytes / std::exp2(30),
+        max_image_memory / std::exp2(30)));
   }
 
   /// Of two values of one name the first counts: a sweep has some of a performance's metrics twice.
@@ -134,7 +152,11 @@ Json evaluation_list(const std::vector<ArchivedEvaluation>& evaluations) {
              {"cost", std::isfinite(evaluation.cost) ? Json(evaluation.cost) : Json(nullptr)},
              {"failure", text_or_null(evaluation.failure)},
              {"seconds", evaluation.seconds}};
-    row.update(object_of(evaluation.design, "design", number));
+    // What the row has itself stands.
+    const Json design = object_of(evaluation.design, "design", number);
+    for (const auto& [name, value] : design.items()) {
+      if (!row.contains(name)) row[name] = value;
+    }
     row["performance"] = evaluation.performance.empty()
                              ? Json(nullptr)
                              : object_of(evaluation.performance, "performance", number);

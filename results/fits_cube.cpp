@@ -19,6 +19,9 @@
 namespace nlcwfs {
 namespace {
 
+/// What a slice takes beside its values: its place in the list, and a block of the heap.
+constexpr double bytes_of_slice_itself = 64.0;
+
 FitsHandle open_to_read(const std::filesystem::path& path) {
   fitsfile* file = nullptr;
   int status = 0;
@@ -33,13 +36,6 @@ bool is_plain_fits(const std::filesystem::path& path) {
   std::array<char, 6> start{};
   std::ifstream(path, std::ios::binary).read(start.data(), start.size());
   return std::string_view(start.data(), start.size()) == "SIMPLE";
-}
-
-/// The bytes of a file; without end for what is no regular file.
-double size_of(const std::filesystem::path& path) {
-  std::error_code failure;
-  const auto size = std::filesystem::file_size(path, failure);
-  return failure ? HUGE_VAL : double(size);
 }
 
 std::string read_unit(fitsfile* file) {
@@ -179,6 +175,8 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) refuse("there is no such file");
   if (std::filesystem::is_directory(path, failure)) refuse("this is a directory");
+  // A pipe or a device may never end.
+  if (!std::filesystem::is_regular_file(path, failure)) refuse("it cannot be read: it is no file");
   if (!is_plain_fits(path)) {
     refuse("it cannot be read: it is no FITS file, or compressed and must be unpacked first");
   }
@@ -202,17 +200,22 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
     // As floating point: the product may be too large for an integer.
     double values = 1.0;
     for (const LONGLONG length : shape) values *= double(length);
-    if (values * sizeof(double) > max_image_memory) {
-      refuse(fmt::format("its {} x {} x {:.0f} values take more than {:g} GiB of memory", shape[0],
-                         shape[1], double(shape[2]) * double(shape[3]),
-                         max_image_memory / std::exp2(30)));
+    const double bytes =
+        values * sizeof(double) + double(shape[2]) * double(shape[3]) * bytes_of_slice_itself;
+    if (bytes > max_image_memory) {
+      refuse(
+          fmt::format("its {} x {} x {:.0f} values take {:.3g} GiB of memory, and {:g} GiB are "
+                      "allowed",
+                      shape[0], shape[1], double(shape[2]) * double(shape[3]),
+                      bytes / std::exp2(30), max_image_memory / std::exp2(30)));
     }
     const LONGLONG slices = shape[2] * shape[3];
     LONGLONG data_start = 0;
     fits_get_hduaddrll(file.get(), nullptr, &data_start, nullptr, &status);
     check_fits(status);
     // Before room is made for what is not there. BITPIX, CFITSIO's type, is below 0 for reals.
-    if (double(data_start) + values * std::abs(type) / 8.0 > size_of(path)) {
+    if (double(data_start) + values * std::abs(type) / 8.0 >
+        double(std::filesystem::file_size(path))) {
       refuse("it cannot be read: it is cut short");
     }
     cube.sets = static_cast<std::size_t>(shape[3]);

@@ -57,7 +57,8 @@ enum class FitsShape {
 
 /// Reads the image of a file's first HDU: as `allowed` says, where axes that are missing at the end
 /// count 1. The path is taken literally, without CFITSIO's extended file name syntax; the file is
-/// not compressed. No more memory is asked for than eight times the file's size.
+/// not compressed. What there is no room for, or what is not in the file, is refused before memory
+/// is asked for.
 /// @param key   the configuration key that named the file, for the error
 /// @param what  is allowed, for the error; empty for what `allowed` says
 /// @throws InputError where the file is missing or unreadable, or its image has another shape or

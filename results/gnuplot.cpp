@@ -26,12 +26,13 @@ struct PictureSize {
 };
 
 /// The same commands in both formats.
+/// @param stem  an absolute path
 std::string in_both_formats(const std::string& commands, const PictureSize& size,
-                            const std::filesystem::path& stem) {
+                            const std::string& stem) {
   std::string script;
   const auto output = [&](const std::string& terminal, const char* extension) {
     script += fmt::format("set terminal {}\nset output {}\n{}\nunset output\n", terminal,
-                          gnuplot_text(stem.string() + extension), commands);
+                          gnuplot_text(stem + extension), commands);
   };
   output(fmt::format("svg size {},{} dynamic noenhanced font 'sans-serif,{}' background 'white'",
                      size.width, size.height, size.font),
@@ -47,21 +48,30 @@ std::string plot_command(const std::vector<std::string>& plots) {
   return fmt::format("plot {}", fmt::join(plots, ", \\\n  "));
 }
 
-/// Runs gnuplot on a script.
+/// Runs gnuplot on commands that draw a picture, with settings before.
 /// @return why it failed; nothing where it did not
-std::optional<std::string> run_gnuplot(const std::string& script,
-                                       const std::filesystem::path& stem) {
-  const std::string script_file = stem.string() + ".gnuplot.part";
-  const std::string log_file = stem.string() + ".log.part";
+std::optional<std::string> run_gnuplot(const std::string& settings, const std::string& commands,
+                                       const PictureSize& size,
+                                       const std::filesystem::path& picture) {
+  // Of a name that starts with |, < or ~ gnuplot would make something else.
+  const std::string stem = std::filesystem::absolute(picture).string();
+  const std::string script_file = stem + ".gnuplot.part";
+  const std::string log_file = stem + ".log.part";
+  const auto remove = [](const std::string& file) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  };
   const auto finish = [&](std::optional<std::string> failure) {
-    for (const std::string& file : {script_file, log_file}) {
-      std::error_code ignored;
-      std::filesystem::remove(file, ignored);
-    }
+    remove(script_file);
+    remove(log_file);
     return failure;
   };
+  // Nothing is written through a link.
+  for (const char* extension : {".gnuplot.part", ".log.part", ".svg", ".png"}) {
+    remove(stem + extension);
+  }
   std::ofstream stream(script_file);
-  stream << script;
+  stream << "set encoding utf8\n" << settings << in_both_formats(commands, size, stem);
   stream.close();
   if (!stream) return finish(fmt::format("cannot write {}", script_file));
 
@@ -97,7 +107,9 @@ std::string gnuplot_text(std::string_view text) {
   std::string quoted = "'";
   for (const char character : text) {
     if (character == '\'') quoted += '\'';
-    quoted += character;
+    // The end of a line would end the text, and what follows would be a command.
+    const auto code = static_cast<unsigned char>(character);
+    quoted += code < 0x20 || code == 0x7f ? '?' : character;
   }
   return quoted + "'";
 }
@@ -141,9 +153,7 @@ std::optional<std::string> draw(const std::string& script, const GnuplotFigure& 
                         "height 1.4 font ',13'",
                         figure.key_rows)
           : "unset key");
-  return run_gnuplot("set encoding utf8\n" + script + outer_parts +
-                         in_both_formats(plot_command(figure.plots), {}, stem),
-                     stem);
+  return run_gnuplot(script + outer_parts, plot_command(figure.plots), {}, stem);
 }
 
 std::optional<std::string> draw(const GnuplotPanels& figure, const std::filesystem::path& stem) {
@@ -172,8 +182,7 @@ std::optional<std::string> draw(const GnuplotPanels& figure, const std::filesyst
                 edge("b", size.height - above - room.height, size.height) + panel.settings +
                 plot_command(panel.plots) + '\n';
   }
-  return run_gnuplot(
-      "set encoding utf8\n" + in_both_formats(commands + "unset multiplot", size, stem), stem);
+  return run_gnuplot("", commands + "unset multiplot", size, stem);
 }
 
 }  // namespace nlcwfs

@@ -60,7 +60,9 @@ GnuplotPanel panel_of(const ImagePicture& picture, const ImagePanel& panel, cons
 
 std::optional<std::string> write_picture(const ImagePicture& picture,
                                          const std::filesystem::path& stem) {
-  const std::filesystem::path data = stem.string() + ".data.part";
+  const std::filesystem::path data = std::filesystem::absolute(stem).string() + ".data.part";
+  std::error_code ignored;
+  std::filesystem::remove(data, ignored);  // never written through a link
   const std::size_t count = picture.panels.size();
   GnuplotPanels figure{
       .title = picture.title,
@@ -87,7 +89,6 @@ std::optional<std::string> write_picture(const ImagePicture& picture,
   } else {
     failure = draw(figure, stem);
   }
-  std::error_code ignored;
   std::filesystem::remove(data, ignored);
   return failure;
 }

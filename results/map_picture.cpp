@@ -55,7 +55,10 @@ std::vector<double> round_numbers(const Range& range, int count, bool logarithmi
     numbers.clear();
   }
   const double wanted = (range.greatest - range.least) / count;
-  if (!(wanted > 0.0)) return {range.least};
+  // Of values that differ in their last digits steps would not add up.
+  if (!(wanted > 1e-12 * std::max(std::abs(range.least), std::abs(range.greatest)))) {
+    return {range.least};
+  }
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   double step = 10.0 * power;
   for (const double digit : {5.0, 2.0, 1.0}) {

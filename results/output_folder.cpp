@@ -65,7 +65,7 @@ OutputFolder OutputFolder::of_earlier_run(const std::filesystem::path& path) {
 
 void OutputFolder::remove_files_except(const std::set<std::string, std::less<>>& kept) const {
   for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-    if (entry.is_regular_file() && !kept.contains(entry.path().filename().string())) {
+    if (!entry.is_directory() && !kept.contains(entry.path().filename().string())) {
       std::filesystem::remove(entry.path());
     }
   }
@@ -75,6 +75,7 @@ void OutputFolder::write(std::string_view name, std::string_view text) const {
   const std::filesystem::path target = file(name);
   std::filesystem::path partial = target;
   partial += ".part";
+  std::filesystem::remove(partial);  // never written through a link
   std::ofstream stream(partial, std::ios::binary);
   stream << text;
   stream.close();

@@ -298,6 +298,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     } else if (key == "preset") {
       preset = value;
     } else if (key == "output") {
+      if (std::ranges::any_of(value, is_control)) {
+        throw InputError("--output", one_line(value), "a path of printable characters");
+      }
       result.output = value;
     } else if (key == "resume") {
       result.resume = value;

@@ -3,6 +3,7 @@
 #include "results/archive.hpp"
 #include "results/design_summary.hpp"
 #include "results/json_text.hpp"
+#include "results/text_file.hpp"
 #include "studies/design_text.hpp"
 #include "studies/grid_picture.hpp"
 #include "studies/run_record.hpp"
@@ -63,8 +64,7 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
   FinishedRun run{.folder = folder};
   run.configuration.read_file(folder / "config.cfg");
   try {
-    std::ifstream file(folder / "summary.json");
-    run.summary = json_of(std::string(std::istreambuf_iterator<char>(file), {}));
+    run.summary = json_of(text_of_file(folder / "summary.json"));
     if (!run.summary.is_object()) throw std::runtime_error("it is no JSON object");
     const std::string made_by = run.summary.at("command");
     if (made_by != command) {
@@ -244,7 +244,7 @@ std::optional<std::string> write_path_picture(const FinishedRun& sweep, const Fi
   const Archive archive = Archive::reopened(optimize.folder / "archive.sqlite");
   for (const ArchivedEvaluation& evaluation : archive.evaluations()) {
     if (evaluation.stage != "search" || !evaluation.failure.empty()) continue;
-    path.designs.push_back({design_from_json(Json::parse(evaluation.design)), evaluation.cost});
+    path.designs.push_back({design_from_json(json_of(evaluation.design)), evaluation.cost});
     if (path.designs.back().design.planes == optimize.best.planes) {
       path.best.cost = evaluation.cost;
     }

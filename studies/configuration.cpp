@@ -173,6 +173,8 @@ std::string ConfigurationKey::allowed() const {
 }
 
 bool ConfigurationKey::accepts(std::string_view value) const {
+  // A dump has each value in a line.
+  if (std::ranges::any_of(value, [](char c) { return is_control(c) && c != '\t'; })) return false;
   const auto within = [this](auto number) {
     return number && bounds.contain(static_cast<double>(*number));
   };
@@ -281,11 +283,20 @@ void Configuration::read_file(const std::filesystem::path& path) {
                      fmt::format("cannot be read ({}); give the path of a configuration file",
                                  std::generic_category().message(errno)));
   }
+  // A device may never end.
+  constexpr std::size_t most_characters = std::size_t{16} << 20U;
+  std::string text;
+  for (char c = 0; text.size() <= most_characters && file.get(c);) text += c;
+  if (file.bad()) throw std::runtime_error(fmt::format("{}: reading failed", name));
+  if (text.size() > most_characters) {
+    throw InputError("--config", name, "longer than 16 MiB; give the path of a configuration file");
+  }
+  std::istringstream lines_of_file(std::move(text));
   // Boost parses one line at a time, under its section's header: it has no line numbers itself.
   std::string header;
   std::string line;
   std::map<std::string, int> line_of;
-  for (int number = 1; std::getline(file, line); ++number) {
+  for (int number = 1; std::getline(lines_of_file, line); ++number) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors write it
     if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
     if (std::ranges::any_of(line, [](char c) { return is_control(c) && c != '\t' && c != '\r'; })) {
@@ -319,7 +330,6 @@ void Configuration::read_file(const std::filesystem::path& path) {
     }
     set(key, value, fmt::format("in {}, line {}", name, number));
   }
-  if (file.bad()) throw std::runtime_error(fmt::format("{}: reading failed", name));
 }
 
 void Configuration::set(std::string_view key, std::string_view value, std::string_view source) {

@@ -378,6 +378,12 @@ std::vector<ConfigurationKey> make_keys() {
        .description = "Floating point precision of the reconstruction; a search has its own, a "
                       "verification is always in double.",
        .choices = {"double", "single"}},
+      {.name = "simulation.time_limit",
+       .kind = Kind::time,
+       .description = "Longest time for one wavefront of a design, looked at between its loops: a "
+                      "design with a slower one has failed. Not set: no limit.",
+       .bounds = above(0),
+       .example = "1s or 30min"},
 
       {.name = "objective.kind",
        .kind = Kind::choice,

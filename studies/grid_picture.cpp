@@ -49,6 +49,9 @@ GridPictureAxis::GridPictureAxis(const Json& axis) : name(axis.at("name")) {
       drawn.values.push_back(value);
     }
   }
+  if (!drawn.words.empty() && drawn.words.size() != drawn.values.size()) {
+    throw std::runtime_error(fmt::format("the axis {} has words and numbers", name));
+  }
   si_unit = axis.at("unit");
   si_values = drawn.values;
   const AxisUnit shown = axis_unit_of(si_unit, si_values);
@@ -115,9 +118,16 @@ class DrawnGrid {
 DrawnGrid::DrawnGrid(const Json& grid) {
   const Json& axes = grid.at("axes");
   const auto length = [&](std::size_t axis) { return axes[axis].at("values").size(); };
+  const std::vector<double> costs = numbers_from_json(grid.at("cost"));
   std::vector<std::size_t> drawn;
+  double points = 1.0;  // may be too many for an integer
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    points *= double(length(axis));
     if (length(axis) > 1) drawn.push_back(axis);
+  }
+  if (points != double(costs.size())) {
+    throw std::runtime_error(
+        fmt::format("the grid has {} costs at {:.0f} points", costs.size(), points));
   }
   std::ranges::stable_sort(drawn, std::ranges::greater(), length);
   if (drawn.size() > 2) {
@@ -131,7 +141,6 @@ DrawnGrid::DrawnGrid(const Json& grid) {
     count *= length(axis);
   }
 
-  const std::vector<double> costs = numbers_from_json(grid.at("cost"));
   chosen_.assign(count, costs.size());
   for (std::size_t point = 0; point < costs.size(); ++point) {
     std::size_t rest = point;

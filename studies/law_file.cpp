@@ -3,6 +3,7 @@
 #include "model/input_error.hpp"
 #include "results/design_summary.hpp"
 #include "results/json_text.hpp"
+#include "results/text_file.hpp"
 #include "studies/text.hpp"
 
 #include <algorithm>
@@ -241,13 +242,13 @@ LawFile read_law_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     throw InputError("advise.law", one_line(path.string()), "a directory; give a law file's path");
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
+  std::string text;
+  try {
+    text = text_of_file(path);
+  } catch (const std::runtime_error& error) {
     throw InputError("advise.law", one_line(path.string()),
-                     fmt::format("cannot be read ({}); give the path of a law file",
-                                 std::generic_category().message(errno)));
+                     fmt::format("cannot be read ({}); give the path of a law file", error.what()));
   }
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
   return parse_law_file(text, path.string());
 }
 

@@ -7,6 +7,7 @@
 #include "studies/interrupt.hpp"
 #include "studies/log.hpp"
 #include "studies/ranks.hpp"
+#include "studies/report_study.hpp"
 #include "studies/run_record.hpp"
 #include "studies/settings.hpp"
 #include "studies/text.hpp"
@@ -16,6 +17,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <system_error>
 
@@ -27,11 +29,9 @@ namespace {
 
 enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 3 };
 
-/// Designs that wait at once for the ranks that simulate them.
-int designs_in_flight(const nlcwfs::TrialRunner* runner) {
-  constexpr int most = 128;  // each has a thread; beyond, ranks share designs
-  return runner == nullptr ? 0 : std::clamp(2 * runner->threads(), 16, most);
-}
+/// Designs that wait at once for the ranks that simulate them: each has a thread, and where there
+/// are more ranks these share designs.
+constexpr int designs_in_flight = 128;
 
 /// Runs a command, or prints its configuration.
 void run(nlcwfs::CommandLine& command_line, const nlcwfs::Ranks& ranks) {
@@ -45,16 +45,22 @@ void run(nlcwfs::CommandLine& command_line, const nlcwfs::Ranks& ranks) {
   start_log(command_line.log_level);
   if (command_line.output) OutputFolder::require_free(*command_line.output);
   if (command_line.resume && is_complete(*command_line.resume)) {
+    // The page comes last.
+    if (!std::filesystem::exists(*command_line.resume / "report.html")) {
+      write_report(*command_line.resume);
+    }
     fmt::print("{} is complete, nothing is left to do.\n", command_line.resume->string());
     return;
   }
-  const int threads = command_line.threads > 0 ? command_line.threads : ranks.cores();
-  command_line.runner = ranks.runner(command_line.threads);
+  const int wanted = command_line.threads > 0 ? command_line.threads : ranks.cores();
+  const int threads = std::min(wanted, tbb::this_task_arena::max_concurrency());
+  // Before the runner's threads, with which TBB would settle for fewer.
   const tbb::global_control limit(
       tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(threads + designs_in_flight(command_line.runner.get())));
+      static_cast<std::size_t>(ranks.count() > 1 ? threads + designs_in_flight : threads));
+  command_line.runner = ranks.runner(command_line.threads);
   // What is not a trial has no more threads than without ranks.
-  tbb::task_arena arena(std::min(threads, tbb::this_task_arena::max_concurrency()));
+  tbb::task_arena arena(threads);
   arena.execute([&] { command_of(command_line.command).run(command_line); });
 }
 

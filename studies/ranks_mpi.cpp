@@ -2,6 +2,7 @@
 #include "objectives/design_trial.hpp"
 #include "results/design_summary.hpp"
 #include "results/performance_record.hpp"
+#include "studies/launched_processes.hpp"
 #include "studies/ranks.hpp"
 #include "studies/settings.hpp"
 #include "studies/text.hpp"
@@ -18,7 +19,6 @@
 #include <list>
 #include <map>
 #include <mpi.h>
-#include <numeric>
 #include <optional>
 #include <sched.h>
 #include <stdexcept>
@@ -65,7 +65,7 @@ class Nap {
 
  private:
   static constexpr std::chrono::microseconds shortest{20};
-  static constexpr std::chrono::microseconds longest{1000};
+  static constexpr std::chrono::microseconds longest{5000};
   std::chrono::microseconds length_ = shortest;
 };
 
@@ -208,7 +208,7 @@ class Manager : public TrialQueue {
  public:
   /// @param threads  of each rank
   explicit Manager(const std::vector<int>& threads)
-      : TrialQueue(threads.front(), std::accumulate(threads.begin() + 1, threads.end(), 0)) {
+      : TrialQueue(threads.front(), {threads.begin() + 1, threads.end()}) {
     for (std::size_t i = 1; i < threads.size(); ++i) {
       peers_.push_back({.rank = static_cast<int>(i), .threads = threads[i]});
     }
@@ -230,6 +230,14 @@ class Manager : public TrialQueue {
   };
 
   void talk(const std::stop_token& stop) {
+    try {
+      talk_until(stop);
+    } catch (const std::exception& error) {
+      end_all_ranks(fmt::format("rank 0 cannot talk to the others: {}", error.what()));
+    }
+  }
+
+  void talk_until(const std::stop_token& stop) {
     Nap nap;
     while (!stop.stop_requested() || !sent_.empty()) {
       bool is_idle = true;
@@ -256,7 +264,7 @@ class Manager : public TrialQueue {
       if (pieces_per_thread > 1 && waiting() <= threads() / 2) break;
       for (Peer& peer : peers_) {
         while (peer.pieces < pieces_per_thread * peer.threads) {
-          const auto piece = take();
+          const auto piece = take(static_cast<std::size_t>(peer.rank));
           if (!piece) return any;
           give(peer, *piece);
           any = true;
@@ -320,14 +328,6 @@ class Manager : public TrialQueue {
   std::jthread talk_;
 };
 
-/// Whether a launcher has started the program together with others. Without one, MPI would take a
-/// while to find that out.
-bool is_launched() {
-  return std::ranges::any_of(
-      std::array{"OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMIX_RANK", "MPI_LOCALRANKID"},
-      [](const char* name) { return std::getenv(name) != nullptr; });
-}
-
 /// The cores that this process may run on, less where other ranks share them.
 int share_of_cores() {
   cpu_set_t mine;
@@ -346,7 +346,9 @@ int share_of_cores() {
 }  // namespace
 
 Ranks::Ranks() : cores_{tbb::this_task_arena::max_concurrency()} {
-  if (!is_launched()) return;
+  // Alone there is no need of MPI, which may not even start inside a step of a batch system.
+  const int processes = launched_processes();
+  if (processes <= 1) return;
   int threading = MPI_THREAD_SINGLE;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &threading);
   if (threading < MPI_THREAD_SERIALIZED) {
@@ -354,6 +356,13 @@ Ranks::Ranks() : cores_{tbb::this_task_arena::max_concurrency()} {
   }
   int count = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &count);
+  if (count != processes) {
+    MPI_Finalize();
+    throw std::runtime_error(fmt::format(
+        "{} processes were started together, but they find only {} by MPI: start them by the "
+        "mpirun of the MPI that the program was built with, or by srun --mpi=pmix",
+        processes, count));
+  }
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   cores_.assign(static_cast<std::size_t>(count), 0);
   const int cores = share_of_cores();
@@ -373,8 +382,9 @@ Ranks::~Ranks() {
 }
 
 void Ranks::serve() {
+  Server server;  // outlives the catch: it would end only when all that waits is simulated
   try {
-    Server().run();
+    server.run();
   } catch (const std::exception& error) {
     end_all_ranks(fmt::format("rank {} on {}: {}", rank_, machine_name(), error.what()));
   }

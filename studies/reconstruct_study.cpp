@@ -124,7 +124,7 @@ struct FrameRun {
   const std::vector<SetResult>& sets;
 };
 
-std::vector<FitsKeyword> keywords_of(const FrameRun& run, std::vector<FitsAxis> axes) {
+std::vector<FitsKeyword> keywords_of(const FrameRun& run, const std::vector<FitsAxis>& axes) {
   std::vector<FitsKeyword> keywords = axis_keywords(axes);
   keywords.push_back({"DIAMETER", run.telescope.diameter, "[m] pupil diameter"});
   keywords.push_back({"WAVELEN", run.telescope.wavelength, "[m] wavelength of the light"});

@@ -8,6 +8,7 @@
 #include "results/fits_cube.hpp"
 #include "results/json_text.hpp"
 #include "results/report_page.hpp"
+#include "results/text_file.hpp"
 #include "studies/design_text.hpp"
 #include "studies/grid_picture.hpp"
 #include "studies/report_verdict.hpp"
@@ -85,11 +86,11 @@ const std::vector<PageFiles>& page_files() {
 
 /// Of a text file; nothing where it cannot be read.
 std::optional<std::string> text_of(const Path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  return file.is_open() && !file.bad() ? std::optional(std::move(text)) : std::nullopt;
+  try {
+    return text_of_file(path);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 [[noreturn]] void refuse(const Path& folder, const std::string& why) {

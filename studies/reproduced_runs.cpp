@@ -3,9 +3,8 @@
 #include "results/csv_table.hpp"
 #include "results/json_numbers.hpp"
 #include "results/json_text.hpp"
+#include "results/text_file.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,10 +19,12 @@ const Json& ReproducedRuns::summary(const std::string& run) const {
   const auto known = read_.find(run);
   if (known != read_.end()) return known->second;
   const std::filesystem::path path = folder_ / run / "summary.json";
-  std::ifstream file(path);
-  Json summary = json_of(std::string(std::istreambuf_iterator<char>(file), {}));
-  if (!summary.is_object()) {
-    throw std::runtime_error(fmt::format("cannot read {}: it is no JSON object", path.string()));
+  Json summary;
+  try {
+    summary = json_of(text_of_file(path));
+    if (!summary.is_object()) throw std::runtime_error("it is no JSON object");
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("cannot read {}: {}", path.string(), error.what()));
   }
   return read_.emplace(run, std::move(summary)).first->second;
 }

@@ -1,11 +1,11 @@
 #include "studies/run_record.hpp"
 
+#include "results/json_text.hpp"
+#include "results/text_file.hpp"
 #include "studies/archive_memory.hpp"
 #include "studies/commands.hpp"
 #include "studies/report_study.hpp"
 #include "studies/version.hpp"
-
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -21,9 +21,13 @@ std::optional<Archive> reused(const CommandLine& command_line) {
 }  // namespace
 
 bool is_complete(const std::filesystem::path& folder) {
-  std::ifstream file(folder / "summary.json");
-  const auto summary = nlohmann::json::parse(file, nullptr, false);
-  return summary.is_object() && !summary.value("interrupted", true);
+  try {
+    const nlohmann::ordered_json summary = json_of(text_of_file(folder / "summary.json"));
+    return summary.is_object() && summary.contains("interrupted") &&
+           summary.at("interrupted") == false;
+  } catch (const std::runtime_error&) {
+    return false;  // there is none that can be read
+  }
 }
 
 RunRecord::RunRecord(const CommandLine& command_line)
@@ -47,7 +51,8 @@ void RunRecord::note_interrupted(const std::string& what) {
   interruption_ = what;
 }
 
-void RunRecord::write_summary(const nlohmann::ordered_json& results) const {
+void RunRecord::write_summary(const nlohmann::ordered_json& results) {
+  archive_.commit();  // before the run counts as complete
   nlohmann::ordered_json config;
   for (const ConfigurationKey& key : configuration_keys()) {
     const Configuration& configuration = command_line_.configuration;

@@ -43,7 +43,7 @@ class RunRecord {
   /// Writes summary.json: command, version, whether the run was interrupted, config (every key with
   /// its text, null where not set), then `results`. From it and the files that are there already it
   /// makes report.html, unless the run is a silent part of another: call it last.
-  void write_summary(const nlohmann::ordered_json& results) const;
+  void write_summary(const nlohmann::ordered_json& results);
 
   /// Prints on standard output, unless the run is a silent part of another.
   template <class... Values>

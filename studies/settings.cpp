@@ -549,7 +549,9 @@ SimulationOptions simulation_options_of(const Configuration& configuration,
               configuration, precision_key,
               {{"double", Precision::double_precision}, {"single", Precision::single_precision}}),
           .noise_seed = configuration.seed("screens.seed"),
-          .source = light_source_of(configuration)};
+          .source = light_source_of(configuration),
+          .time_limit = configuration.optional_time("simulation.time_limit")
+                            .value_or(std::numeric_limits<double>::infinity())};
 }
 
 std::vector<PhaseScreen> screens_of(const Configuration& configuration,

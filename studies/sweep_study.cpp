@@ -1,5 +1,6 @@
 #include "model/input_error.hpp"
 #include "optimizer/all_at_once.hpp"
+#include "optimizer/failure_count.hpp"
 #include "optimizer/problem.hpp"
 #include "results/csv_table.hpp"
 #include "results/design_summary.hpp"
@@ -38,9 +39,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Designs that are tried together: enough for many cores, as each is parallel in itself, and few
-/// enough that neighbours on the grid, which share planes, find each other's images. With a runner
-/// so many for each of its threads, as all wait for the last of them.
+/// enough that neighbours on the grid, which share planes, find each other's images.
 constexpr std::size_t batch_size = 16;
+/// The same for each thread of a runner: more, as all wait for the last of them.
+constexpr std::size_t batch_size_of_thread = 64;
 
 /// What the configuration asks for, checked as a whole before anything is written.
 struct Task {
@@ -109,6 +111,7 @@ struct Outcome {
 struct Tried {
   Outcome outcome;
   ArchivedEvaluation evaluation;
+  bool is_refused = false;  ///< it is none that can be simulated
 };
 
 /// Tries a design; one that cannot be tried has a failure. Nothing where an interrupt ended it.
@@ -145,6 +148,7 @@ std::optional<Tried> tried_design(const GridDesign& design, const Task& task) {
   } catch (const TrialMemoryFailed&) {
     throw;  // no design is to blame
   } catch (const std::exception& error) {
+    result.is_refused = dynamic_cast<const InputError*>(&error) != nullptr;
     result.outcome = {.failure = error.what()};
     evaluation.failure = error.what();
   }
@@ -162,6 +166,7 @@ class Sweep {
         outcomes_(designs_.size()) {}
 
   /// Tries every design; an interrupt ends it early.
+  /// @throws std::runtime_error where too many in a row fail
   void run(const CommandLine& command_line);
 
   const std::vector<GridDesign>& designs() const { return designs_; }
@@ -186,9 +191,11 @@ void Sweep::run(const CommandLine& command_line) {
   Progress progress("sweep", double(designs_.size()), "designs", "then the verification",
                     command_line.whole);
   const Stopwatch stopwatch;
+  FailureCount failures;
   const std::size_t together =
-      command_line.runner ? batch_size * static_cast<std::size_t>(command_line.runner->threads())
-                          : batch_size;
+      command_line.runner
+          ? batch_size_of_thread * static_cast<std::size_t>(command_line.runner->threads())
+          : batch_size;
   for (std::size_t first = 0; first < designs_.size(); first += together) {
     const std::size_t count = std::min(together, designs_.size() - first);
     std::vector<std::optional<Tried>> batch(count);
@@ -203,6 +210,15 @@ void Sweep::run(const CommandLine& command_line) {
       archive_and_log(archive, batch[i]->evaluation);
       outcomes_[first + i] = std::move(batch[i]->outcome);
       ++done_;
+      if (batch[i]->is_refused) continue;
+      failures.add(!outcomes_[first + i]->failure.empty());
+      if (failures.is_too_high()) {
+        throw std::runtime_error(fmt::format(
+            "{} of {} designs failed one after the other, the last with: {}; the archive has all "
+            "of them: nlcwfs export {}",
+            failures.in_a_row(), designs_.size(), outcomes_[first + i]->failure,
+            record_.folder().path().string()));
+      }
     }
   }
   seconds_ = archive.seconds_before() + stopwatch.seconds();

@@ -2,19 +2,20 @@
 
 #include "objectives/trial_runner.hpp"
 
-#include <atomic>
+#include <condition_variable>
+#include <deque>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
 
-#include <tbb/concurrent_queue.h>
-
 namespace nlcwfs {
 
 /// Cuts what trials ask for into pieces, which wait in one queue for whoever is free: threads of
-/// this process, and whatever else takes them.
+/// this process, and other processes. Each process is given the same screens of every design where
+/// it can: it keeps their images, which designs that share planes share.
 class TrialQueue : public TrialRunner {
   struct Block;
 
@@ -33,13 +34,13 @@ class TrialQueue : public TrialRunner {
 
    private:
     friend class TrialQueue;
-    std::shared_ptr<Block> block_;  // null: there will be no more pieces
+    std::shared_ptr<Block> block_;
     std::size_t number_ = 0;
   };
 
-  /// @param here       threads of this process
-  /// @param elsewhere  threads that others have, who take pieces
-  TrialQueue(int here, int elsewhere);
+  /// @param here       threads of this process, which is number 0
+  /// @param elsewhere  threads of other processes, who take pieces, by their numbers from 1
+  TrialQueue(int here, const std::vector<int>& elsewhere);
   ~TrialQueue() override;
   TrialQueue(const TrialQueue&) = delete;
   TrialQueue& operator=(const TrialQueue&) = delete;
@@ -48,18 +49,26 @@ class TrialQueue : public TrialRunner {
                                int count, const ScreenWatch& watch) override;
   int threads() const override { return threads_; }
 
-  /// The next piece; nothing where none waits.
-  std::optional<Piece> take();
+  /// The next piece for a process; nothing where none waits.
+  std::optional<Piece> take(std::size_t process);
 
-  /// About how many pieces wait.
-  int waiting() const { return static_cast<int>(pieces_.size()); }
+  /// How many pieces wait.
+  int waiting() const;
 
  private:
   void simulate_pieces();
+  /// @pre lock_ is held
+  std::optional<Piece> next_piece(std::size_t process);
+  /// Lets the threads of this process end.
+  void end();
 
   int threads_;
-  std::atomic<int> blocks_ = 0;  // that are being run
-  tbb::concurrent_bounded_queue<Piece> pieces_;
+  std::size_t processes_;
+  mutable std::mutex lock_;  // of all below
+  std::condition_variable has_more_;
+  std::deque<Piece> pieces_;
+  int blocks_ = 0;  // that are being run
+  bool is_over_ = false;
   std::vector<std::jthread> here_;
 };
 

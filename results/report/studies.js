@@ -305,7 +305,7 @@ function showExport(summary) {
         const rows = rowsOf(columns, "stage", stage);
         return {type: "scatter", mode: "markers", name: plain(stage), x: rows[chosen.x],
           y: rows[chosen.y], marker: {color: theme.lines[i % theme.lines.length], size: 6},
-          text: rows.evaluation.map((number) => `evaluation ${number}`),
+          text: rows.evaluation.map((number) => `evaluation ${plain(number)}`),
           hovertemplate: "%{text}<br>%{x:.5~g}, %{y:.5~g}<extra></extra>"};
       }),
       layout: {xaxis: {title: {text: plain(label(chosen.x))}}, yaxis: {title: {text: plain(label(chosen.y))},

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -565,6 +566,25 @@ TEST(Simulation, NeedsAScreenAndATelescope) {
               StartsWith("screens.count = 0: at least 1"));
   EXPECT_THAT(message_of([] { Simulation({.diameter = -1.0}, turbulence(1), {}); }),
               StartsWith("telescope.diameter = -1: "));
+}
+
+TEST(Simulation, FailsWhereAWavefrontTakesTooLong) {
+  const auto screens = turbulence(2);
+  const Simulation slow({}, screens, {.time_limit = 1e-9});
+  const auto expect_failure = [](const auto& action) {
+    EXPECT_THAT(action, testing::ThrowsMessage<std::runtime_error>(
+                            "a wavefront took longer than simulation.time_limit, 1e-09 s"));
+  };
+  expect_failure([&] { (void)slow.evaluate(small_design()); });
+  expect_failure([&] { (void)slow.follow(small_design()); });
+  expect_failure([&] { (void)slow.record(small_design(), 0); });
+
+  const Simulation patient({}, screens, {.time_limit = 1e9});
+  const Simulation unlimited({}, screens, {});
+  EXPECT_EQ(patient.evaluate(small_design()).screens[1].wavefront.total_wfe,
+            unlimited.evaluate(small_design()).screens[1].wavefront.total_wfe);
+  EXPECT_NE(slow.identity(), patient.identity());
+  EXPECT_NE(patient.identity(), unlimited.identity());
 }
 
 TEST(Simulation, EndsWithItsFirstScreensWhereTheWatchSaysSo) {

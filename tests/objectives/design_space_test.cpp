@@ -346,7 +346,8 @@ TEST(FreeSpace, PlanesGrowWithTheirVariablesWithinTheirRanges) {
     if (step == 0) first = planes;
     previous = planes;
   }
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
+  ASSERT_EQ(first.size(), ranges.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_NEAR(first[i], ranges[i].lower, 1e-6);
     EXPECT_NEAR(previous[i], ranges[i].upper, 1e-6);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -272,6 +273,27 @@ TEST_F(DesignTrialTest, SimulatesNoScreenThatItRemembers) {
   // A race that asks for fewer screens than are known sees these alone.
   EXPECT_EQ(again.run(design_, end_at_8).costs, begun.costs);
   EXPECT_EQ(memory->kept, 2);
+}
+
+TEST_F(DesignTrialTest, TakesNothingThatNoTrialOfTheDesignLeaves) {
+  const auto memory = std::make_shared<MapMemory>();
+  DesignTrial remembering = trial(3);
+  remembering.remember_in(memory);
+  const TriedDesign tried = remembering.run(design_);
+  RememberedTrial& kept = memory->trials.begin()->second;
+  const RememberedTrial whole = kept;
+  const std::vector<std::function<void(std::vector<Performance>&)>> changes{
+      [](auto& performances) { performances.clear(); },
+      [](auto& performances) { performances.push_back(performances.front()); },
+      [](auto& performances) { performances.back().screens[1].captured_energy.clear(); },
+      [](auto& performances) { performances.back().screens[1].captured_energy.pop_back(); }};
+  for (const auto& change : changes) {
+    kept = whole;
+    change(kept.performances);
+    const int before = memory->kept;
+    EXPECT_EQ(remembering.run(design_).costs, tried.costs);
+    EXPECT_EQ(memory->kept, before + 1) << "simulated again";
+  }
 }
 
 TEST_F(DesignTrialTest, RemembersWhatAnInterruptLeftOfADesign) {

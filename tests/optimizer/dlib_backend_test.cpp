@@ -29,7 +29,7 @@ struct DlibRun {
   }
 };
 
-DlibRun run(TestProblem problem, StageOptions options,
+DlibRun run(TestProblem problem, const StageOptions& options,
             const std::vector<SearchPoint>& starts = {}) {
   DlibRun done;
   Evaluator evaluator(problem, {.budget = 1000, .observer = [&](const EvaluationRecord& record) {

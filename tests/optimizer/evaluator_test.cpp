@@ -177,7 +177,7 @@ TEST(Evaluator, GivesUpAfterTooManyFailuresInARow) {
   };
   int records = 0;
   Evaluator evaluator(problem, {.budget = 1000, .observer = [&](const auto&) { ++records; }});
-  const int allowed = Evaluator::failures_in_a_row_allowed;
+  const int allowed = FailureCount::allowed_in_a_row;
   for (int i = 1; i < allowed; ++i) evaluator(at(-i, 0.0));
   evaluator(at(1.0, 0.0));  // a success: the row begins again
   for (int i = 1; i < allowed; ++i) evaluator(at(-i, 1.0));

@@ -31,7 +31,7 @@ struct BackendRun {
   double best = std::numeric_limits<double>::infinity();
 };
 
-BackendRun run(std::string_view algorithm, TestProblem problem, StageOptions options) {
+BackendRun run(std::string_view algorithm, TestProblem problem, const StageOptions& options) {
   BackendRun done;
   Evaluator evaluator(problem, {.budget = 1000, .observer = [&](const EvaluationRecord& record) {
                                   done.records.push_back(record);
@@ -184,9 +184,9 @@ TEST_P(EveryAlgorithm, SurvivesAProblemWithoutAnyCost) {
   try {
     minimize(GetParam(), evaluator, {0, problem.start()}, {});
   } catch (const SearchFailed&) {
-    EXPECT_EQ(problem.calls, Evaluator::failures_in_a_row_allowed);
+    EXPECT_EQ(problem.calls, FailureCount::allowed_in_a_row);
   }
-  EXPECT_LE(problem.calls, Evaluator::failures_in_a_row_allowed);
+  EXPECT_LE(problem.calls, FailureCount::allowed_in_a_row);
   EXPECT_EQ(evaluator.failures(), problem.calls);
   EXPECT_FALSE(evaluator.best());
 }

@@ -113,7 +113,9 @@ def test_killed_rank(root):
     process = start(3, *words, "--output", folder)
     while not trials(folder) and process.poll() is None:
         time.sleep(0.01)
-    os.kill(pid_of(process.pid, 1), signal.SIGKILL)
+    rank = pid_of(process.pid, 1)
+    require(rank is not None, "rank 1 is not there to be killed")
+    os.kill(rank, signal.SIGKILL)
     process.communicate(timeout=60)
     require(process.returncode != 0, "a job without one of its ranks goes on")
     known = trials(folder)

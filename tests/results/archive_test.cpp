@@ -2,11 +2,16 @@
 
 #include "tests/scratch_folder.hpp"
 
+#include <atomic>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <sys/resource.h>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,6 +35,7 @@ std::vector<Row> query(const std::string& path, const std::string& sql) {
   sqlite3* database = nullptr;
   EXPECT_EQ(sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
   const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> close(database, sqlite3_close);
+  sqlite3_busy_timeout(database, 60'000);
   std::vector<Row> rows;
   const auto add_row = [](void* to, int count, char** values, char**) {
     Row row;
@@ -75,7 +81,7 @@ TEST_F(ArchiveTest, KeepsEveryEvaluationInOrder) {
     evaluation.stage = stage;
     archive.add(evaluation);
   }
-  // While the archive is still open: a killed run leaves what it had.
+  archive.commit();
   EXPECT_THAT(query("archive.sqlite", "SELECT id, stage FROM evaluations ORDER BY id"),
               ElementsAre(ElementsAre("1", "search"), ElementsAre("2", "search"),
                           ElementsAre("3", "verify")));
@@ -168,6 +174,52 @@ TEST_F(ArchiveTest, GoesOnWithNoOtherTable) {
   EXPECT_THAT(failure_of_reopening("text"), HasSubstr("not a database"));
 }
 
+/// An archive with what is hostile in it.
+std::string failure_with(const char* sql) {
+  std::filesystem::remove("hostile.sqlite");
+  { const Archive archive("hostile.sqlite", "sweep"); }
+  sqlite3* database = nullptr;
+  EXPECT_EQ(sqlite3_open("hostile.sqlite", &database), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+  try {
+    Archive::reopened("hostile.sqlite");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(ArchiveTest, OpensNoneThatComputesItsRows) {
+  EXPECT_EQ(failure_with("CREATE INDEX costs ON evaluations (cost)"), "");
+  for (const char* sql :
+       {"ALTER TABLE evaluations RENAME TO hidden;"
+        "CREATE VIEW evaluations AS WITH RECURSIVE row(i) AS (VALUES(1) UNION ALL SELECT i + 1 "
+        "FROM row) SELECT i AS id, 's' AS stage, 'k' AS key, '{}' AS design, 1 AS cost, NULL AS "
+        "failure, 1 AS seconds, NULL AS performance FROM row",
+        "CREATE TRIGGER after_all AFTER DELETE ON evaluations BEGIN DELETE FROM trials; END",
+        "ALTER TABLE evaluations ADD COLUMN more AS (abs(id)) VIRTUAL"}) {
+    EXPECT_EQ(failure_with(sql), "hostile.sqlite is no archive of a run of nlcwfs") << sql;
+  }
+}
+
+TEST_F(ArchiveTest, OpensNoneWhoseJournalNamesAnotherFile) {
+  { const Archive archive("archive.sqlite", "sweep"); }
+  std::ofstream("victim") << "mine";
+  const std::string end = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  std::ofstream("archive.sqlite-journal", std::ios::binary) << std::string(600, '\0') << end;
+  std::filesystem::create_symlink("archive.sqlite", "link.sqlite");
+  for (const char* path : {"archive.sqlite", "link.sqlite"}) {
+    EXPECT_THAT([&] { Archive::reopened(path); },
+                testing::ThrowsMessage<std::runtime_error>(std::string(path) +
+                                                           " is no archive of a run of nlcwfs"));
+  }
+  EXPECT_TRUE(std::filesystem::exists("archive.sqlite-journal"));
+  // One without such a name is that of a run that was killed.
+  std::ofstream("archive.sqlite-journal", std::ios::binary) << std::string(600, '\0');
+  EXPECT_NO_THROW(Archive::reopened("archive.sqlite"));
+}
+
 TEST_F(ArchiveTest, NamesPathAndCauseWhereItCannotBeMade) {
   std::ofstream("file") << "a text that is no database, longer than its header of 100 bytes "
                         << std::string(100, '.');
@@ -184,6 +236,75 @@ TEST_F(ArchiveTest, DoesNotAppendToAnother) {
   EXPECT_THAT(failure_of_opening("archive.sqlite"),
               StartsWith("cannot write to the archive archive.sqlite: "));
   EXPECT_EQ(query("archive.sqlite", "SELECT id FROM evaluations").size(), 1u);
+}
+
+TEST_F(ArchiveTest, PutsEvaluationsOnDiskWithTheNextTrial) {
+  const auto rows = [] { return query("archive.sqlite", "SELECT id FROM evaluations").size(); };
+  {
+    Archive archive("archive.sqlite", "sweep");
+    archive.add(success());
+    EXPECT_EQ(archive.evaluations().size(), 1u);
+    EXPECT_EQ(rows(), 0u);
+    archive.keep("trial", "design", {{1}});
+    EXPECT_EQ(rows(), 1u);
+    archive.add(success());
+    archive.commit();
+    archive.commit();
+    EXPECT_EQ(rows(), 2u);
+    archive.add(success());
+  }
+  EXPECT_EQ(rows(), 3u);
+}
+
+TEST_F(ArchiveTest, KeepsWhatManyThreadsGiveItAtOnce) {
+  constexpr int threads = 16;
+  constexpr int each = 20;
+  Archive archive("archive.sqlite", "sweep");
+  const auto name = [](int thread, int i) { return std::to_string(thread * each + i); };
+  {
+    std::vector<std::jthread> all;
+    for (int thread = 0; thread < threads; ++thread) {
+      all.emplace_back([&, thread] {
+        for (int i = 0; i < each; ++i) {
+          archive.keep("trial", name(thread, i), {{std::uint8_t(thread), std::uint8_t(i)}});
+          // On disk when the function returns, as another program sees it.
+          if (i % 10 == 9) {
+            EXPECT_EQ(query("archive.sqlite",
+                            "SELECT 1 FROM trials WHERE design = " + name(thread, i) + " || ''")
+                          .size(),
+                      1u);
+          }
+        }
+      });
+    }
+  }
+  EXPECT_EQ(archive.known_designs("trial"), std::size_t(threads * each));
+  EXPECT_EQ(archive.find("trial", name(3, 7)), (ArchivedTrial{{3, 7}}));
+}
+
+TEST_F(ArchiveTest, TellsEveryThreadThatItCannotKeep) {
+  Archive archive("archive.sqlite", "sweep");
+  const rlimit small{100, RLIM_INFINITY};
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::atomic<int> failures = 0;
+  {
+    std::vector<std::jthread> all;
+    for (int thread = 0; thread < 8; ++thread) {
+      all.emplace_back([&, thread] {
+        try {
+          archive.keep("trial", std::to_string(thread), {std::vector<std::uint8_t>(10000)});
+        } catch (const std::runtime_error&) {
+          ++failures;
+        }
+      });
+    }
+  }
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(failures, 8);
 }
 
 TEST_F(ArchiveTest, KnowsWhoseRunItIsAndWhatItsTrialsFound) {

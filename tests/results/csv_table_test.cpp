@@ -134,7 +134,9 @@ TEST_F(ReadCsv, NamesTheFileThatItCannotRead) {
     }
     return std::string();
   };
-  EXPECT_EQ(message("missing.csv"), "cannot read missing.csv");
+  EXPECT_EQ(message("missing.csv"), "cannot read missing.csv: No such file or directory");
+  std::ofstream("empty.csv").flush();
+  EXPECT_EQ(message("empty.csv"), "cannot read empty.csv: it is empty");
   std::ofstream("broken.csv") << "a,b\n1,2\n3\n";
   EXPECT_EQ(message("broken.csv"), "cannot read broken.csv: line 3 has 1 cells, not 2");
 }

@@ -148,6 +148,28 @@ TEST_F(EvaluationTableTest, NamesTheEvaluationThatIsBroken) {
   EXPECT_THROW((void)evaluation_list({broken}), std::runtime_error);
 }
 
+TEST_F(EvaluationTableTest, ADesignChangesNothingOfItsRow) {
+  ArchivedEvaluation hostile = four_planes();
+  hostile.design = R"({"stage":5,"failure":{},"performance":1,"more":2})";
+  const Json row = evaluation_list({hostile}).front();
+  EXPECT_EQ(row.at("stage"), "sweep");
+  EXPECT_EQ(row.at("failure"), nullptr);
+  EXPECT_EQ(row.at("performance").at("screens"), 16);
+  EXPECT_EQ(row.at("more"), 2);
+}
+
+TEST_F(EvaluationTableTest, FitsIntoTheMemoryThatIsAllowed) {
+  // The rows need not have what the columns are for.
+  Json list = Json::array();
+  for (int i = 0; i < 30000; ++i) list.push_back({{"x", i}});
+  Json& many = list[0]["x"] = Json::object();
+  for (int i = 0; i < 30000; ++i) many[std::to_string(i)] = "";
+  EXPECT_THAT([&] { evaluation_table(list); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("evaluations with 30007 columns takes 16 GiB"),
+                        HasSubstr("16 GiB are allowed"))));
+}
+
 struct CloseTable {
   void operator()(fitsfile* file) const {
     int status = 0;
@@ -171,9 +193,9 @@ class FitsReader {
     EXPECT_EQ(status_, 0) << name;
     return value.data();
   }
-  int number_of(std::string name) {
+  int number_of(const std::string& name) {
     int number = 0;
-    fits_get_colnum(file_.get(), CASESEN, name.data(), &number, &status_);
+    fits_get_colnum(file_.get(), CASESEN, std::string(name).data(), &number, &status_);
     EXPECT_EQ(status_, 0) << name;
     return number;
   }

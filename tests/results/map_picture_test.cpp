@@ -54,6 +54,14 @@ void expect_pictures(const std::string& stem) {
   EXPECT_THAT(contents(stem + ".png"), StartsWith("\x89PNG"));
 }
 
+TEST_F(MapPictureTest, ValuesMayDifferInTheirLastDigitsAlone) {
+  MapPicture flat = bowl();
+  for (auto& column : flat.values) column.assign(column.size(), 0.9403092732337204);
+  flat.values[0][0] = std::nextafter(flat.values[0][0], 1.0);
+  EXPECT_EQ(write_picture(flat, "flat"), std::nullopt);
+  expect_pictures("flat");
+}
+
 TEST_F(MapPictureTest, AMapIsDrawnInBothFormats) {
   ASSERT_EQ(write_picture(bowl(), "it's a map"), std::nullopt);
   EXPECT_THAT(names_in("."), ElementsAre("it's a map.png", "it's a map.svg"));
@@ -186,9 +194,9 @@ TEST_F(MapPictureTest, SaysWhyThereIsNone) {
   EXPECT_THAT(write_picture(picture, "empty"), Optional(HasSubstr("no value")));
   EXPECT_THAT(write_picture(bowl(), "no/such/folder/map"), Optional(HasSubstr("cannot write")));
 
-  std::filesystem::create_directory("map.svg");
+  std::filesystem::create_directories("map.svg/not-empty");
   EXPECT_THAT(write_picture(bowl(), "map"), Optional(StartsWith("gnuplot failed")));
-  std::filesystem::remove("map.svg");
+  std::filesystem::remove_all("map.svg");
 
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);

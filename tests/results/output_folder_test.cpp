@@ -3,7 +3,9 @@
 #include "tests/message_of.hpp"
 #include "tests/scratch_folder.hpp"
 
+#include <csignal>
 #include <set>
+#include <sys/resource.h>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -121,10 +123,41 @@ TEST_F(OutputFolderTest, NamesTheFileThatItCannotWrite) {
 
 TEST_F(OutputFolderTest, LeavesNoPartOfAFileThatDidNotFit) {
   const OutputFolder folder("mine", "evaluate");
-  fs::create_symlink("/dev/full", "mine/table.csv.part");
-  EXPECT_THAT(failure_of([&] { folder.write("table.csv", "1"); }),
-              AllOf(StartsWith("cannot write mine/table.csv"), HasSubstr("No space left")));
+  // As on a full disk, files can have two bytes.
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{2, before.rlim_max};
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string failure = failure_of([&] { folder.write("table.csv", "12345"); });
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THAT(failure, AllOf(StartsWith("cannot write mine/table.csv"), HasSubstr("too large")));
   EXPECT_FALSE(fs::exists("mine/table.csv"));
+}
+
+TEST_F(OutputFolderTest, WritesThroughNoLink) {
+  const OutputFolder folder("mine", "evaluate");
+  std::ofstream("target") << "mine";
+  for (const char* name : {"mine/table.csv.part", "mine/table.csv"}) {
+    fs::create_symlink(fs::absolute("target"), name);
+  }
+  folder.write("table.csv", "1");
+  EXPECT_EQ(contents("target"), "mine");
+  EXPECT_EQ(contents("mine/table.csv"), "1");
+  EXPECT_FALSE(fs::is_symlink("mine/table.csv"));
+}
+
+TEST_F(OutputFolderTest, RemovesLinksButNoFolders) {
+  const OutputFolder folder("mine", "evaluate");
+  std::ofstream("target") << "mine";
+  fs::create_symlink(fs::absolute("target"), "mine/link");
+  fs::create_symlink("nowhere", "mine/dangling");
+  fs::create_directory("mine/folder");
+  std::ofstream("mine/kept") << "";
+  folder.remove_files_except({"kept"});
+  EXPECT_THAT(names_in("mine"), ElementsAre("folder", "kept"));
+  EXPECT_EQ(contents("target"), "mine");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "results/performance_record.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -53,6 +54,27 @@ TEST(PerformanceRecord, RefusesOtherBytes) {
   }
   EXPECT_THROW(performances_of({0x01}), std::runtime_error) << "a number";
   EXPECT_THROW(performances_of({0x81, 0x81, 0x80}), std::runtime_error) << "a screen of nothing";
+}
+
+TEST(PerformanceRecord, RefusesOtherNesting) {
+  EXPECT_THROW(performances_of(std::vector<std::uint8_t>(3000000, 0x81)), std::runtime_error);
+  EXPECT_THROW(performances_of({0x81, 0x81, 0xa1}), std::runtime_error) << "an object";
+  EXPECT_THROW(performances_of({0x81, 0xf6}), std::runtime_error) << "a null";
+  EXPECT_THROW(performances_of({0x81, 0x61, 'a'}), std::runtime_error) << "a text";
+}
+
+TEST(PerformanceRecord, RefusesCountsThatAreNone) {
+  const ScreenPerformance one = screen(0.1);
+  std::vector<std::uint8_t> record = performance_record({{{one}}});
+  const auto loops = std::ranges::find(record, std::uint8_t{7});
+  ASSERT_NE(loops, record.end());
+  EXPECT_EQ(performances_of(record).front().screens.front().loops, 7);
+  // The number 7 as a half-precision float.
+  *loops = 0xf9;
+  record.insert(loops + 1, {0x47, 0x00});
+  EXPECT_THAT([&] { (void)performances_of(record); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  "no record of performances: a count is no whole number"));
 }
 
 }  // namespace

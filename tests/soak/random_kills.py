@@ -4,13 +4,14 @@
 
 After every kill no simulated screen may be lost or have been simulated again (a clock would give
 another time); at the end summaries, tables and archives are those of the undisturbed run, but for what
-a clock measured.
+a clock measured. Then a run of each command meets a full disk: it ends with the reason, and goes on.
 """
 
 import argparse
 import json
 import pathlib
 import random
+import resource
 import shutil
 import sqlite3
 import subprocess
@@ -69,13 +70,37 @@ def require(condition, what):
         sys.exit(f"random_kills: {what}")
 
 
-def run(program, command, folder):
+def run(program, command, folder, **options):
     if (folder / "config.cfg").exists():
         words = [command, "--resume", str(folder)]
     else:  # killed before there was anything to go on with
         shutil.rmtree(folder, ignore_errors=True)
         words = [command, *SETTINGS, *COMMANDS[command], "--output", str(folder)]
-    return subprocess.Popen([program, *words, "--quiet"], stdout=subprocess.DEVNULL)
+    return subprocess.Popen([program, *words, "--quiet"], stdout=subprocess.DEVNULL, **options)
+
+
+def require_same(folder, whole, expected):
+    got = result(folder)
+    for part, value in expected.items():
+        require(got[part] == value, f"{part} of {folder} is not that of {whole}")
+
+
+def fill_disk_and_resume(program, command, root, whole, expected):
+    folder = root / f"{command}-full"
+    sizes = {name: (whole / name).stat().st_size for name in ("archive.sqlite", "config.cfg")}
+    room = max(sizes["archive.sqlite"] // 2, sizes["config.cfg"])
+    # As on a full disk, no file can grow any more; without the signal that would end the run at once.
+    process = run(program, command, folder, stderr=subprocess.PIPE, text=True, restore_signals=False,
+                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)))
+    _, errors = process.communicate()
+    require(process.returncode == 1 and "archive.sqlite" in errors,
+            f"{command} on a full disk ends with {process.returncode}: {errors}")
+    known = trials(folder)
+    require(run(program, command, folder).wait() == 0, f"{command} failed in {folder}")
+    now = trials(folder)
+    require(all(now[key] == value for key, value in known.items()), f"{command} repeated an evaluation")
+    require_same(folder, whole, expected)
+    print(f"{command}: a full disk after {len(known)} designs, then like the undisturbed one")
 
 
 def kill_and_resume(program, command, kills, dice, root):
@@ -106,11 +131,10 @@ def kill_and_resume(program, command, kills, dice, root):
                 require(now[key] == value or len(now[key][0] or b"") > len(value[0] or b""),
                         f"{command} repeated an evaluation in {folder}")
             known = now
-        got = result(folder)
-        for part, value in expected.items():
-            require(got[part] == value, f"{part} of {folder} is not that of {whole}")
+        require_same(folder, whole, expected)
         shutil.rmtree(folder)
     print(f"{command}: {killed} kills in {runs} runs, each like the undisturbed one")
+    fill_disk_and_resume(program, command, root, whole, expected)
 
 
 def main():

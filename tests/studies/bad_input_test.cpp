@@ -77,6 +77,8 @@ TEST_F(BadInput, OfAConfigurationFile) {
   std::ofstream("garbage.cfg") << "\x01\x02 = \nnonsense";
   expect_refused("evaluate", {"--config", "garbage.cfg"}, "--config = garbage.cfg",
                  "line 1 is no text");
+  expect_refused("evaluate", {"--config", "/dev/zero"}, "--config = /dev/zero",
+                 "longer than 16 MiB");
 }
 
 TEST_F(BadInput, OfSingleValues) {
@@ -360,7 +362,7 @@ TEST_F(BadInput, OfMoreMemoryThanIsAllowed) {
                  "take 30.5 GiB of memory");
   expect_refused("response",
                  {"--response.frequencies", "0.1:4:1001", "--response.distances", "1km:9km:1000"},
-                 "response.distances = 1000 distances", "at most 999 with 1001 frequencies");
+                 "response.distances = 1km:9km:1000", "at most 999 with 1001 frequencies");
   expect_refused("evaluate", {"--simulation.pupil_samples", "8192"}, "detector.window = 2",
                  "at most 1 pupil diameters of 8192 samples");
   expect_refused("evaluate",
@@ -412,7 +414,7 @@ TEST_F(BadInput, OfShapesInFilesOfScreens) {
   expect_shape_refused({32}, "NAXIS is 1");
   expect_shape_refused({32, 31}, "its slices are 32 x 31, not square");
   expect_shape_refused({3, 2, 2, 2}, "NAXIS is 4");
-  expect_shape_refused({100000, 100000}, "take more than 16 GiB of memory");
+  expect_shape_refused({100000, 100000}, "take 74.5 GiB of memory, and 16 GiB are allowed");
   expect_shape_refused({200, 200}, "it cannot be read: it is cut short");
   std::ofstream("packed.fits") << "\x1f\x8b";
   expect_refused("evaluate", {"--screens.file", "packed.fits"}, "screens.file = packed.fits",

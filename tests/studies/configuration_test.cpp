@@ -152,6 +152,8 @@ TEST(Configuration, SaysWhatIsAllowedInOneLine) {
   EXPECT_EQ(set_message("search.time_limit", "1d"),
             "search.time_limit = 1d: a time above 0 in us, ms, s, min or h, such as 90s or 30min "
             "(on the command line)");
+  EXPECT_THAT(set_message("baseline.planes", "-60km,\n60km"),
+              StartsWith("baseline.planes = -60km,?60km: lengths"));
   EXPECT_EQ(set_message("screens.file", "a\nb"),
             "screens.file = a?b: a path without #, such as screens.fits (on the command "
             "line)");

@@ -2,6 +2,9 @@
 #include "studies/grid_picture.hpp"
 #include "tests/scratch_folder.hpp"
 
+#include <functional>
+#include <stdexcept>
+
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -45,6 +48,29 @@ TEST_F(GridMap, NeedsTwoAxes) {
   line["axes"][0]["values"] = {20000.0};
   line["cost"] = {{{1.0, 2.0}}};
   write_grid_map(line, "cost", "", "map.fits");
+  EXPECT_FALSE(std::filesystem::exists("map.fits"));
+}
+
+TEST_F(GridMap, OfNoGridIsRefused) {
+  const auto expect_refused = [](const std::function<void(nlohmann::ordered_json&)>& change,
+                                 const char* why) {
+    nlohmann::ordered_json other = grid();
+    change(other);
+    EXPECT_THAT([&] { write_grid_map(other, "cost", "", "map.fits"); },
+                testing::ThrowsMessage<std::runtime_error>(why));
+  };
+  expect_refused([](auto& g) { g["axes"][1]["values"] = nlohmann::ordered_json::array(); },
+                 "the grid has 4 costs at 0 points");
+  expect_refused(
+      [](auto& g) {
+        g["axes"][1]["values"] = {0.0, 0.1};
+      },
+      "the grid has 4 costs at 8 points");
+  expect_refused(
+      [](auto& g) {
+        g["axes"][0]["values"] = {"near", 1e4};
+      },
+      "the axis z_near has words and numbers");
   EXPECT_FALSE(std::filesystem::exists("map.fits"));
 }
 

@@ -212,6 +212,20 @@ TEST_F(SweepStudy, ADesignThatFailsLeavesAGap) {
               1e-12);
 }
 
+TEST_F(SweepStudy, EndsWhereTooManyDesignsFailOneAfterTheOther) {
+  const ProgramRun failed =
+      run({"sweep", "--config", "tiny.cfg", "--output", "run", "--sweep.z_near", "20km:60km:5",
+           "--sweep.z_far", "80km:160km:5", "--simulation.time_limit", "1us"});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.errors,
+              HasSubstr("20 of 25 designs failed one after the other, the last with: a wavefront "
+                        "took longer than simulation.time_limit, 1e-06 s; the archive has all of "
+                        "them: nlcwfs export run"));
+  const ProgramRun exported = run({"export", "run", "--output", "table"});
+  EXPECT_EQ(exported.exit_code, 0) << exported.errors;
+  EXPECT_EQ(summary("table").at("failed"), 20);
+}
+
 TEST_F(SweepStudy, SweepsPlaneCountsAndOrders) {
   done("sweep", "run", {"--sweep.plane_count", "2,3,4", "--sweep.z_far", "100km,160km"});
   const Json costs = summary("run")["grid"]["cost"];
@@ -284,9 +298,12 @@ TEST_F(SweepStudy, GoesOnAfterBeingKilledAsIfItHadNot) {
   EXPECT_EQ(Archive::reopened("run/archive.sqlite").evaluations().size(), 49u + 3u)
       << "each design once, and the verifications";
 
+  // Killed between the summary and the page.
+  std::filesystem::remove("run/report.html");
   const ProgramRun again = run({"sweep", "--resume", "run"});
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_THAT(again.output, HasSubstr("nothing is left to do"));
+  EXPECT_EQ(names_in("run"), names_in("whole"));
 }
 
 TEST_F(SweepStudy, AnInterruptLeavesWhatIsDoneAndSaysHowToGoOn) {

@@ -4,7 +4,10 @@
 #include "studies/settings.hpp"
 #include "tests/message_of.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -52,7 +55,7 @@ TEST(TrialQueue, SimulatesWhatTheTrialDoes) {
   const TriedDesign expected = alone.run(design);
   for (const int threads : {1, 2, 5}) {
     DesignTrial spread = tiny_trial();
-    spread.run_on(std::make_shared<TrialQueue>(threads, 0));
+    spread.run_on(std::make_shared<TrialQueue>(threads, std::vector<int>{}));
     expect_same(spread.run(design), expected);
     const auto twice = [](std::span<const double> costs) { return costs.size() < 8; };
     expect_same(spread.run(design, twice), alone.run(design, twice));
@@ -62,14 +65,14 @@ TEST(TrialQueue, SimulatesWhatTheTrialDoes) {
 TEST(TrialQueue, GivesPiecesToWhoeverTakesThem) {
   const DesignTrial alone = tiny_trial();
   const SensorDesign design = design_of(tiny());
-  const auto queue = std::make_shared<TrialQueue>(0, 2);
+  const auto queue = std::make_shared<TrialQueue>(0, std::vector{2});
   DesignTrial spread = tiny_trial();
   spread.run_on(queue);
   int pieces = 0;
   std::atomic<bool> is_over = false;
   std::jthread other([&] {
     while (!is_over) {
-      const auto piece = queue->take();
+      const auto piece = queue->take(1);
       if (!piece) continue;
       EXPECT_EQ(&piece->trial(), &spread);
       piece->done(alone.simulate(piece->design(), piece->first(), piece->count()));
@@ -83,9 +86,43 @@ TEST(TrialQueue, GivesPiecesToWhoeverTakesThem) {
   EXPECT_EQ(pieces, 4) << "two for each thread, as there is one design alone";
 }
 
+TEST(TrialQueue, GivesEachProcessItsScreensOfEveryDesign) {
+  const auto queue = std::make_shared<TrialQueue>(0, std::vector{1});
+  DesignTrial spread = tiny_trial();
+  spread.run_on(queue);
+  const SensorDesign design = design_of(tiny());
+  std::vector<std::jthread> designs;
+  constexpr int count = 8;
+  for (int i = 0; i < count; ++i) {
+    designs.emplace_back([&] { (void)spread.run(design); });
+  }
+  std::map<std::size_t, std::set<int>> screens;
+  std::vector<TrialQueue::Piece> pieces;
+  while (queue->waiting() < 2 * count) std::this_thread::yield();
+  for (const std::size_t process : {0U, 1U}) {
+    for (int i = 0; i < count; ++i) {
+      pieces.push_back(queue->take(process).value());
+      screens[process].insert(pieces.back().first());
+    }
+  }
+  EXPECT_EQ(screens[0], std::set{0});
+  EXPECT_EQ(screens[1], std::set{4});
+  EXPECT_FALSE(queue->take(0).has_value());
+  const auto finish = [&](const TrialQueue::Piece& piece) {
+    piece.done(spread.simulate(piece.design(), piece.first(), piece.count()));
+  };
+  std::ranges::for_each(pieces, finish);
+  designs.clear();
+
+  // What is left goes to whoever asks.
+  std::jthread one([&] { (void)spread.run(design); });
+  while (queue->waiting() < 2) std::this_thread::yield();
+  for (int i = 0; i < 2; ++i) finish(queue->take(1).value());
+}
+
 TEST(TrialQueue, EndsWithTheFirstScreensWhereTheWatchSaysSo) {
   DesignTrial spread = tiny_trial();
-  spread.run_on(std::make_shared<TrialQueue>(2, 0));
+  spread.run_on(std::make_shared<TrialQueue>(2, std::vector<int>{}));
   const SensorDesign design = design_of(tiny());
   const TriedDesign whole = spread.run(design);
   const TriedDesign ended = spread.run(design, {}, [] { return false; });
@@ -99,16 +136,16 @@ TEST(TrialQueue, ThrowsWhatTheSimulationDoes) {
   SensorDesign bad = design_of(tiny());
   bad.detector.pupil_pixels = 12;
   const std::string message = message_of([&] { (void)spread.run(bad); });
-  spread.run_on(std::make_shared<TrialQueue>(2, 0));
+  spread.run_on(std::make_shared<TrialQueue>(2, std::vector<int>{}));
   EXPECT_EQ(message_of([&] { (void)spread.run(bad); }), message);
   EXPECT_THROW((void)spread.run(bad), InputError);
 
-  const auto queue = std::make_shared<TrialQueue>(0, 1);
+  const auto queue = std::make_shared<TrialQueue>(0, std::vector{1});
   DesignTrial failing = tiny_trial();
   failing.run_on(queue);
   std::jthread other([&](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-      if (const auto piece = queue->take()) {
+      if (const auto piece = queue->take(1)) {
         piece->failed(std::make_exception_ptr(std::runtime_error("no light")));
       }
     }
