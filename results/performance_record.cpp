@@ -42,6 +42,7 @@ ScreenPerformance from_record(const Json& record) {
 
 /// Reads a record as it comes: performances of screens of values, of which the last is a list.
 /// Whatever is nested deeper, of which a tree would end the stack, ends the reading.
+// NOLINTNEXTLINE(bugprone-exception-escape): it may throw
 class Reader : public nlohmann::json_sax<Json> {
  public:
   std::vector<Performance> performances;
@@ -49,9 +50,9 @@ class Reader : public nlohmann::json_sax<Json> {
   bool boolean(bool value) override { return add(value); }
   bool number_integer(number_integer_t value) override { return add(value); }
   bool number_unsigned(number_unsigned_t value) override { return add(value); }
-  bool number_float(number_float_t value, const string_t&) override { return add(value); }
+  bool number_float(number_float_t value, const string_t& /*text*/) override { return add(value); }
 
-  bool start_array(std::size_t) override {
+  bool start_array(std::size_t /*elements*/) override {
     switch (++depth_) {
       case 1:
         return true;
@@ -75,12 +76,13 @@ class Reader : public nlohmann::json_sax<Json> {
   }
 
   bool null() override { return false; }
-  bool string(string_t&) override { return false; }
-  bool binary(binary_t&) override { return false; }
-  bool start_object(std::size_t) override { return false; }
-  bool key(string_t&) override { return false; }
+  bool string(string_t& /*value*/) override { return false; }
+  bool binary(binary_t& /*value*/) override { return false; }
+  bool start_object(std::size_t /*elements*/) override { return false; }
+  bool key(string_t& /*value*/) override { return false; }
   bool end_object() override { return false; }
-  bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
+  bool parse_error(std::size_t /*position*/, const std::string& /*last_token*/,
+                   const Json::exception& /*error*/) override {
     return false;
   }
 

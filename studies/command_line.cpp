@@ -256,101 +256,134 @@ int parse_threads(const std::string& value) {
   return *threads;
 }
 
-}  // namespace
+/// What the words of a command line say, one after the other, and then together.
+class CommandLineReader {
+ public:
+  CommandLine read(int argc, const char* const* argv);
 
-CommandLine parse_command_line(int argc, const char* const* argv) {
-  const po::options_description known = known_options();
+ private:
+  void take(const po::option& option);
+  void take_value(const std::string& key, const std::string& value);
+  /// Makes values of the options that stand for keys.
+  void resolve_short_forms();
+  void configure();
 
-  const std::map<std::string, bool CommandLine::*> flags{
+  po::options_description known_ = known_options();
+  CommandLine result_;
+  std::optional<std::string> preset_;
+  std::vector<std::string> files_;
+  std::map<std::string, std::vector<std::string>> short_values_;
+  std::vector<std::pair<std::string, std::string>> values_;
+  std::set<std::string> seen_;
+};
+
+void CommandLineReader::take(const po::option& option) {
+  static const std::map<std::string, bool CommandLine::*> flags{
       {"verify", &CommandLine::verify},
       {"help", &CommandLine::help},
       {"version", &CommandLine::version},
       {"dump-config", &CommandLine::dump_config}};
-  CommandLine result;
-  std::optional<std::string> preset;
-  std::vector<std::string> files;
-  std::map<std::string, std::vector<std::string>> short_values;
-  std::vector<std::pair<std::string, std::string>> values;
-  std::set<std::string> seen;
-  for (const po::option& option : parse_options(argc, argv, known)) {
-    const std::string& key = option.string_key;
-    const std::string value = option.value.empty() ? "" : option.value.front();
-    if (option.position_key >= 0) {
-      parse_positional(value, result, known);
-      continue;
-    }
-    if (!seen.insert(key).second && key != "config" && key != "figure") {
-      throw InputError("command line",
-                       one_line(fmt::format("{}", fmt::join(option.original_tokens, " "))),
-                       "given twice; keep one of them");
-    }
-    const auto flag = flags.find(key);
-    if (flag != flags.end()) {
-      result.*flag->second = true;
-    } else if (key == "quiet") {
-      result.log_level = LogLevel::warning;
-    } else if (value.empty() || value.starts_with("--")) {
-      refuse_missing_value("--" + key);
-    } else if (key == "config") {
-      files.push_back(value);
-    } else if (std::ranges::count(short_forms, key, &ShortForm::option) > 0) {
-      short_values[key].push_back(value);
-    } else if (key == "preset") {
-      preset = value;
-    } else if (key == "output") {
-      if (std::ranges::any_of(value, is_control)) {
-        throw InputError("--output", one_line(value), "a path of printable characters");
-      }
-      result.output = value;
-    } else if (key == "resume") {
-      result.resume = value;
-    } else if (key == "reuse") {
-      result.reuse = value;
-    } else if (key == "log-level") {
-      result.log_level = parse_log_level(value);
-    } else if (key == "threads") {
-      result.threads = parse_threads(value);
-    } else {
-      values.emplace_back(key, value);
-    }
+  const std::string& key = option.string_key;
+  const std::string value = option.value.empty() ? "" : option.value.front();
+  if (option.position_key >= 0) {
+    parse_positional(value, result_, known_);
+    return;
   }
-  if (seen.contains("quiet") && seen.contains("log-level")) {
-    throw InputError("command line", "--quiet",
-                     "is the same as --log-level warning; keep one of them");
+  if (!seen_.insert(key).second && key != "config" && key != "figure") {
+    throw InputError("command line",
+                     one_line(fmt::format("{}", fmt::join(option.original_tokens, " "))),
+                     "given twice; keep one of them");
   }
-  if (result.help || result.version) return result;
-  require_whole_command(result);
+  const auto flag = flags.find(key);
+  if (flag != flags.end()) {
+    result_.*flag->second = true;
+  } else if (key == "quiet") {
+    result_.log_level = LogLevel::warning;
+  } else if (value.empty() || value.starts_with("--")) {
+    refuse_missing_value("--" + key);
+  } else {
+    take_value(key, value);
+  }
+}
+
+void CommandLineReader::take_value(const std::string& key, const std::string& value) {
+  if (key == "config") {
+    files_.push_back(value);
+  } else if (std::ranges::count(short_forms, key, &ShortForm::option) > 0) {
+    short_values_[key].push_back(value);
+  } else if (key == "preset") {
+    preset_ = value;
+  } else if (key == "output") {
+    if (std::ranges::any_of(value, is_control)) {
+      throw InputError("--output", one_line(value), "a path of printable characters");
+    }
+    result_.output = value;
+  } else if (key == "resume") {
+    result_.resume = value;
+  } else if (key == "reuse") {
+    result_.reuse = value;
+  } else if (key == "log-level") {
+    result_.log_level = parse_log_level(value);
+  } else if (key == "threads") {
+    result_.threads = parse_threads(value);
+  } else {
+    values_.emplace_back(key, value);
+  }
+}
+
+void CommandLineReader::resolve_short_forms() {
   for (const ShortForm& form : short_forms) {
-    if (!short_values.contains(form.option)) continue;
-    const std::string list = fmt::format("{}", fmt::join(short_values[form.option], ","));
+    if (!short_values_.contains(form.option)) continue;
+    const std::string list = fmt::format("{}", fmt::join(short_values_[form.option], ","));
     const std::string shown = one_line(fmt::format("--{} {}", form.option, list));
-    if (result.command != form.command) {
+    if (result_.command != form.command) {
       throw InputError(
           "command line", shown,
-          fmt::format("only {} takes it; leave it away with {}", form.command, result.command));
+          fmt::format("only {} takes it; leave it away with {}", form.command, result_.command));
     }
-    if (seen.contains(form.key)) {
+    if (seen_.contains(form.key)) {
       throw InputError("command line", shown,
                        fmt::format("{} is given too; keep one of them", form.key));
     }
-    values.emplace_back(form.key, list);
+    values_.emplace_back(form.key, list);
   }
-  if (result.reuse) require_trials(command_of(result.command), *result.reuse);
-  if (result.resume) {
+}
+
+void CommandLineReader::configure() {
+  if (result_.resume) {
     std::vector<std::string> configuring;
-    if (preset) configuring.emplace_back("--preset");
-    if (!files.empty()) configuring.emplace_back("--config");
-    if (result.output) configuring.emplace_back("--output");
-    for (const auto& [key, value] : values) configuring.push_back("--" + key);
-    result.configuration = resumed_configuration(result, configuring);
-    return result;
+    if (preset_) configuring.emplace_back("--preset");
+    if (!files_.empty()) configuring.emplace_back("--config");
+    if (result_.output) configuring.emplace_back("--output");
+    for (const auto& [key, value] : values_) configuring.push_back("--" + key);
+    result_.configuration = resumed_configuration(result_, configuring);
+    return;
   }
-  if (preset) result.configuration.apply_preset(*preset);
-  for (const std::string& file : files) result.configuration.read_file(file);
-  for (const auto& [key, value] : values) {
-    result.configuration.set(key, value, "on the command line");
+  if (preset_) result_.configuration.apply_preset(*preset_);
+  for (const std::string& file : files_) result_.configuration.read_file(file);
+  for (const auto& [key, value] : values_) {
+    result_.configuration.set(key, value, "on the command line");
   }
-  return result;
+}
+
+CommandLine CommandLineReader::read(int argc, const char* const* argv) {
+  for (const po::option& option : parse_options(argc, argv, known_)) take(option);
+  if (seen_.contains("quiet") && seen_.contains("log-level")) {
+    throw InputError("command line", "--quiet",
+                     "is the same as --log-level warning; keep one of them");
+  }
+  if (result_.help || result_.version) return std::move(result_);
+  require_whole_command(result_);
+  resolve_short_forms();
+  if (result_.reuse) require_trials(command_of(result_.command), *result_.reuse);
+  configure();
+  return std::move(result_);
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  return CommandLineReader().read(argc, argv);
 }
 
 }  // namespace nlcwfs

@@ -25,8 +25,8 @@ constexpr double nm = 1e-9;
 /// The residual WFE of the wavefronts after one loop, nm.
 struct LoopResiduals {
   std::vector<double> screens;
-  MeanAndError mean;
-  double standard_deviation;
+  MeanAndError mean = {};
+  double standard_deviation = 0.0;
 };
 
 /// @param performance  whose loops were followed, all of them as many
