@@ -188,8 +188,10 @@ std::string of_reproduce(const Json& summary) {
     std::map<std::string, int> counts;
     for (const Json& claim : claims) ++counts[claim.at(setup).at("verdict").get<std::string>()];
     std::vector<std::string> parts;
-    for (const auto& [verdict, count] : counts)
+    parts.reserve(counts.size());
+    for (const auto& [verdict, count] : counts) {
       parts.push_back(fmt::format("{} {}", count, verdict));
+    }
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", title, fmt::join(parts, ", "));
   }
   return fmt::format("Of {} claims: {}.", claims.size(), text);

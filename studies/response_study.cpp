@@ -116,13 +116,13 @@ struct AmplitudeNoise {
 
 /// How a sensor did at one frequency.
 struct FrequencyResponse {
-  MeanAndError share;         ///< recovered amplitude over the true one
-  MeanAndError residual_wfe;  ///< nm
-  MeanAndError loops;         ///< fractional
-  double talbot_contrast;     ///< 1/rad, root mean square over the planes
-  double effective_contrast;  ///< the same
-  std::optional<AmplitudeNoise> noise;
-  int wavefronts;  ///< that it is of
+  MeanAndError share = {};          ///< recovered amplitude over the true one
+  MeanAndError residual_wfe = {};   ///< nm
+  MeanAndError loops = {};          ///< fractional
+  double talbot_contrast = 0.0;     ///< 1/rad, root mean square over the planes
+  double effective_contrast = 0.0;  ///< the same
+  std::optional<AmplitudeNoise> noise = {};
+  int wavefronts = 0;  ///< that it is of
 };
 
 double share_of(const ScreenPerformance& screen) { return screen.wavefront.recovered_share; }

@@ -396,6 +396,7 @@ constexpr std::array<MapFigure, 3> map_figures{{{"cost", "", "map-cost"},
 std::vector<std::string> draw_maps(const Task& task, const Json& grid, const CostedDesign& best,
                                    const OutputFolder& folder) {
   std::vector<PlannedPicture> pictures;
+  pictures.reserve(map_figures.size());
   for (const MapFigure& map : map_figures) {
     pictures.push_back({map.file, [&, map](const auto& stem) {
                           return write_grid_picture(picture_title(task.telescope, task.seeing),
