@@ -74,13 +74,10 @@ void SensorDesign::validate(const Telescope& telescope) const {
   const int width = grid_width();
   const double bytes_per_image = double(width) * width * sizeof(double);
   if (double(planes.size()) * bytes_per_image > max_image_memory) {
-    throw InputError(
-        "sensor.planes", fmt::format("{} distances", planes.size()),
-        fmt::format("at most {:.0f}: images of {} x {} samples take {:.3g} GiB of memory, and {:g} "
-                    "GiB are allowed",
-                    std::floor(max_image_memory / bytes_per_image), width, width,
-                    double(planes.size()) * bytes_per_image / std::exp2(30),
-                    max_image_memory / std::exp2(30)));
+    throw InputError("sensor.planes", fmt::format("{} distances", planes.size()),
+                     fmt::format("at most {:.0f}: images of {} x {} samples take {}",
+                                 std::floor(max_image_memory / bytes_per_image), width, width,
+                                 memory_text(double(planes.size()) * bytes_per_image)));
   }
 }
 

@@ -67,19 +67,17 @@ class Experiment {
                         ScreenRecord* record = nullptr) const {
     using Clock = std::chrono::steady_clock;
     const auto data_start = Clock::now();
-    const auto require_time = [&] {
-      const std::chrono::duration<double> elapsed = Clock::now() - data_start;
-      if (elapsed.count() <= options_.time_limit) return;
-      throw std::runtime_error(fmt::format(
-          "a wavefront took longer than simulation.time_limit, {:g} s", options_.time_limit));
-    };
     const std::vector<ImageCache::SharedImage> light = noise_free_images(truth, screen);
     std::vector<Image<double>> images = detector_images(light, screen);
 
     const auto start = Clock::now();
     ScreenPerformance result;
     const auto after_loop = [&](const Field<double>& pupil) {
-      require_time();
+      const std::chrono::duration<double> so_far = Clock::now() - data_start;
+      if (so_far.count() > options_.time_limit) {
+        throw std::runtime_error(fmt::format(
+            "a wavefront took longer than simulation.time_limit, {:g} s", options_.time_limit));
+      }
       if (!follows_loops) return;
       result.residual_after_loops.push_back(
           measured(pupil, reconstructor_.unwrapper().unwrap(pupil), truth).residual_wfe);

@@ -1,6 +1,6 @@
 #include "results/evaluation_table.hpp"
 
-#include "model/array.hpp"
+#include "model/bound_text.hpp"
 #include "results/csv_table.hpp"
 #include "results/json_text.hpp"
 
@@ -85,11 +85,8 @@ class FlatTableBuilder {
   void require_memory() const {
     const double bytes = double(table_.rows) * double(table_.columns.size()) * sizeof(TableCell);
     if (bytes <= max_image_memory) return;
-    throw std::runtime_error(fmt::format(
-        "a table of {} evaluations with {} columns takes {:.3g} GiB of memory, and {:g} GiB are "
-        "allowed",
-        table_.rows, table_.columns.size(), bytes / std::exp2(30),
-        max_image_memory / std::exp2(30)));
+    throw std::runtime_error(fmt::format("a table of {} evaluations with {} columns takes {}",
+                                         table_.rows, table_.columns.size(), memory_text(bytes)));
   }
 
   /// Of two values of one name the first counts: a sweep has some of a performance's metrics twice.

@@ -1,5 +1,6 @@
 #include "results/fits_cube.hpp"
 
+#include "model/bound_text.hpp"
 #include "model/input_error.hpp"
 #include "results/fits_file.hpp"
 
@@ -203,11 +204,8 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
     const double bytes =
         values * sizeof(double) + double(shape[2]) * double(shape[3]) * bytes_of_slice_itself;
     if (bytes > max_image_memory) {
-      refuse(
-          fmt::format("its {} x {} x {:.0f} values take {:.3g} GiB of memory, and {:g} GiB are "
-                      "allowed",
-                      shape[0], shape[1], double(shape[2]) * double(shape[3]),
-                      bytes / std::exp2(30), max_image_memory / std::exp2(30)));
+      refuse(fmt::format("its {} x {} x {:.0f} values take {}", shape[0], shape[1],
+                         double(shape[2]) * double(shape[3]), memory_text(bytes)));
     }
     const LONGLONG slices = shape[2] * shape[3];
     LONGLONG data_start = 0;

@@ -2,6 +2,7 @@
 #include "objectives/design_comparison.hpp"
 #include "results/archive.hpp"
 #include "results/design_summary.hpp"
+#include "results/json_numbers.hpp"
 #include "results/json_text.hpp"
 #include "results/text_file.hpp"
 #include "studies/design_text.hpp"
@@ -15,8 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -74,8 +73,10 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
                                    made_by));
     }
     run.best = design_from_json(run.summary.at("best"));
-    run.designs =
-        run.summary.at("evaluations").get<int>() + run.summary.value("cheap_evaluations", 0);
+    run.designs = integer_from_json(run.summary.at("evaluations"));
+    if (run.summary.contains("cheap_evaluations")) {
+      run.designs += integer_from_json(run.summary.at("cheap_evaluations"));
+    }
     run.reconstructions = run.summary.at("search_reconstructions");
     run.seconds = run.summary.at("search_seconds");
   } catch (const InputError&) {

@@ -578,28 +578,38 @@ DesignTrial trial_of(const Configuration& configuration, std::string_view precis
   return trial;
 }
 
+namespace {
+
+/// On screens of verify.seed.
+/// @param key  that asks for so many screens, for the error where they take too much memory
+DesignTrial trial_on_fresh_screens(const Configuration& configuration, SimulationOptions options,
+                                   int samples, std::string_view key, int count, bool pixels_vary) {
+  const Telescope telescope = telescope_of(configuration);
+  const auto seeings = double(seeings_of(configuration, telescope).size());
+  require_memory(key, std::to_string(count), seeings * count, samples);
+  options.noise_seed = configuration.seed("verify.seed");
+  return {conditions_of(configuration, telescope, options,
+                        [&](const Seeing& seeing) {
+                          return simulated_screens(configuration, telescope, seeing, samples, count,
+                                                   "verify.seed");
+                        }),
+          cost_of(configuration, pixels_vary)};
+}
+
+}  // namespace
+
 DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
                            bool pixels_vary) {
   constexpr int least_screens = 8;
-  const Telescope telescope = telescope_of(configuration);
-  const int samples = truth_samples(configuration);
-  const int count = std::max(least_screens, configuration.integer("screens.count"));
-  const auto seeings = double(seeings_of(configuration, telescope).size());
-  require_memory("screens.count", std::to_string(count), seeings * count, samples);
-  SimulationOptions options = simulation_options_of(configuration, precision_key);
-  options.noise_seed = configuration.seed("verify.seed");
-  DesignTrial trial(conditions_of(configuration, telescope, options,
-                                  [&](const Seeing& seeing) {
-                                    return simulated_screens(configuration, telescope, seeing,
-                                                             samples, count, "verify.seed");
-                                  }),
-                    cost_of(configuration, pixels_vary));
+  DesignTrial trial = trial_on_fresh_screens(
+      configuration, simulation_options_of(configuration, precision_key),
+      truth_samples(configuration), "screens.count",
+      std::max(least_screens, configuration.integer("screens.count")), pixels_vary);
   trial.spec = spec_of("fresh", precision_key, configuration);
   return trial;
 }
 
 DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary) {
-  const Telescope telescope = telescope_of(configuration);
   const std::uint64_t seed = configuration.seed("verify.seed");
   const int factor = configuration.integer("verify.truth_factor");
   if (seed == configuration.seed("screens.seed")) {
@@ -608,7 +618,6 @@ DesignTrial verification_trial_of(const Configuration& configuration, bool pixel
   }
   SimulationOptions options = simulation_options_of(configuration, "simulation.precision");
   options.precision = Precision::double_precision;
-  options.noise_seed = seed;
   if (factor > 1) options.truth = TruthModel::extended;
   const double window = configuration.number(configuration.choice("simulation.truth") == "extended"
                                                  ? "detector.window"
@@ -621,16 +630,9 @@ DesignTrial verification_trial_of(const Configuration& configuration, bool pixel
                     "at most {} are allowed",
                     std::floor(max_grid_width / search_width), search_width, max_grid_width));
   }
-  const int samples = truth_samples(configuration) * factor;
-  const int count = verification_screens(configuration);
-  const auto seeings = double(seeings_of(configuration, telescope).size());
-  require_memory("verify.screens", std::to_string(count), seeings * count, samples);
-  DesignTrial trial(conditions_of(configuration, telescope, options,
-                                  [&](const Seeing& seeing) {
-                                    return simulated_screens(configuration, telescope, seeing,
-                                                             samples, count, "verify.seed");
-                                  }),
-                    cost_of(configuration, pixels_vary));
+  DesignTrial trial =
+      trial_on_fresh_screens(configuration, options, truth_samples(configuration) * factor,
+                             "verify.screens", verification_screens(configuration), pixels_vary);
   trial.spec = spec_of("verification", "simulation.precision", configuration);
   return trial;
 }

@@ -107,7 +107,7 @@ struct Outcome {
   std::string failure = {};                ///< why there is none of these
 };
 
-/// A design that was tried: its place among the designs, how it did, and the archive's row.
+/// A design that was tried: how it did, and the archive's row.
 struct Tried {
   Outcome outcome;
   ArchivedEvaluation evaluation;

@@ -1,16 +1,15 @@
 #include "results/archive.hpp"
 
+#include "tests/full_disk.hpp"
 #include "tests/scratch_folder.hpp"
 
 #include <atomic>
 #include <cmath>
-#include <csignal>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <sys/resource.h>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -284,13 +283,9 @@ TEST_F(ArchiveTest, KeepsWhatManyThreadsGiveItAtOnce) {
 
 TEST_F(ArchiveTest, TellsEveryThreadThatItCannotKeep) {
   Archive archive("archive.sqlite", "sweep");
-  const rlimit small{100, RLIM_INFINITY};
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   std::atomic<int> failures = 0;
   {
+    const FullDisk disk(100);
     std::vector<std::jthread> all;
     for (int thread = 0; thread < 8; ++thread) {
       all.emplace_back([&, thread] {
@@ -302,8 +297,6 @@ TEST_F(ArchiveTest, TellsEveryThreadThatItCannotKeep) {
       });
     }
   }
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, handler);
   EXPECT_EQ(failures, 8);
 }
 

@@ -1,11 +1,10 @@
 #include "results/output_folder.hpp"
 
+#include "tests/full_disk.hpp"
 #include "tests/message_of.hpp"
 #include "tests/scratch_folder.hpp"
 
-#include <csignal>
 #include <set>
-#include <sys/resource.h>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -123,15 +122,10 @@ TEST_F(OutputFolderTest, NamesTheFileThatItCannotWrite) {
 
 TEST_F(OutputFolderTest, LeavesNoPartOfAFileThatDidNotFit) {
   const OutputFolder folder("mine", "evaluate");
-  // As on a full disk, files can have two bytes.
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  const rlimit small{2, before.rlim_max};
-  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string failure = failure_of([&] { folder.write("table.csv", "12345"); });
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, handler);
+  const std::string failure = [&] {
+    const FullDisk disk(2);
+    return failure_of([&] { folder.write("table.csv", "12345"); });
+  }();
   EXPECT_THAT(failure, AllOf(StartsWith("cannot write mine/table.csv"), HasSubstr("too large")));
   EXPECT_FALSE(fs::exists("mine/table.csv"));
 }
