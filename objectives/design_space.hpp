@@ -21,8 +21,8 @@ enum class Scale { linear, logarithmic };
 
 /// The numbers from `lower` to `upper`.
 struct ValueRange {
-  double lower;                     ///< included
-  double upper;                     ///< included
+  double lower = 0.0;               ///< included
+  double upper = 0.0;               ///< included
   std::optional<Scale> scale = {};  ///< not set: as suits the property
 };
 

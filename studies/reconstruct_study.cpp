@@ -461,9 +461,9 @@ std::string sets_text(const FrameRun& run) {
 
 }  // namespace
 
-void run_reconstruct(const CommandLine& given) {
-  CommandLine command_line = given;
-  Configuration& configuration = command_line.configuration;
+void run_reconstruct(const CommandLine& command_line) {
+  CommandLine completed = command_line;
+  Configuration& configuration = completed.configuration;
   require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
@@ -472,7 +472,7 @@ void run_reconstruct(const CommandLine& given) {
   const SensorDesign design = design_of(configuration);
   design.validate(telescope);
   const GerchbergSaxton<double> reconstructor(telescope, design, measured.axes);
-  RunRecord record(command_line);
+  RunRecord record(completed);
 
   const std::vector<SetResult> sets = reconstruct_sets(reconstructor, design, telescope, measured);
   if (sets.size() < measured.sets.size()) {
