@@ -113,7 +113,9 @@ TriedDesign DesignTrial::simulated(const SensorDesign& design, RememberedTrial k
     for (std::size_t k = 0; k < conditions_.size(); ++k) {
       std::vector<ScreenPerformance>& screens = tried.performances[k].screens;
       std::vector<ScreenPerformance>& before = known.performances[k].screens;
-      std::move(before.begin() + done, before.begin() + from, std::back_inserter(screens));
+      for (int i = done; i < from; ++i) {
+        screens.push_back(std::move(before[static_cast<std::size_t>(i)]));
+      }
       std::ranges::move(block[k].screens, std::back_inserter(screens));
       least = std::min(least, screens.size());
     }

@@ -37,7 +37,8 @@ TEST_F(Convergence, LeavesItsFiles) {
     EXPECT_NEAR(residuals["standard_error"][loop], 0.5 * std::abs(first - second), 1e-9);
   }
   EXPECT_GT(residuals["mean"][0], residuals["mean"][8]);
-  for (const double aberration : summary("run").at("aberrations_nm")) {
+  const nlohmann::json aberrations = summary("run").at("aberrations_nm");
+  for (const double aberration : aberrations) {
     EXPECT_GT(aberration, residuals["mean"][8]);
   }
 }

@@ -269,7 +269,8 @@ TEST_F(TradeStudy, KeepsTheLimits) {
 TEST_F(TradeStudy, WithAMatchedTruthPixelsDoNotVary) {
   const ProgramRun finished = traded("run", {"--preset", "paper"});
   EXPECT_THAT(finished.output, HasSubstr("note: with simulation.truth = matched"));
-  for (const Json& design : summary("run")["front"]) {
+  const Json front = summary("run")["front"];
+  for (const Json& design : front) {
     EXPECT_EQ(design["pupil_pixels"], 16);
     EXPECT_EQ(design["oversampling"], 1);
   }
