@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <exception>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -13,6 +14,7 @@ namespace nlcwfs {
 
 /// body(0), ..., body(count - 1) in parallel, begun in this order. Where the program is allowed
 /// more threads than there are cores, as many at once: what waits for other machines needs none.
+/// @throws what a body throws first; no other is begun then, and those that were are finished
 template <class Body>
 void all_at_once(std::size_t count, const Body& body) {
   const auto allowed = static_cast<int>(
@@ -21,10 +23,21 @@ void all_at_once(std::size_t count, const Body& body) {
                             ? allowed
                             : tbb::this_task_arena::max_concurrency());
   std::atomic<std::size_t> next = 0;
-  arena.execute([&] {
-    tbb::parallel_for(
-        std::size_t{0}, count, [&](std::size_t) { body(next++); }, tbb::simple_partitioner());
-  });
+  std::atomic<bool> has_failed = false;
+  std::exception_ptr why;
+  // Through an exception oneTBB would leave out the parallel loops inside the other bodies, whose
+  // results would lack what those were to fill.
+  const auto try_next = [&](std::size_t) {
+    if (has_failed) return;
+    try {
+      body(next++);
+    } catch (...) {
+      if (!has_failed.exchange(true)) why = std::current_exception();
+    }
+  };
+  arena.execute(
+      [&] { tbb::parallel_for(std::size_t{0}, count, try_next, tbb::simple_partitioner()); });
+  if (why) std::rethrow_exception(why);
 }
 
 }  // namespace nlcwfs
