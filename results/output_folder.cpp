@@ -63,9 +63,12 @@ OutputFolder OutputFolder::of_earlier_run(const std::filesystem::path& path) {
   return folder;
 }
 
-void OutputFolder::remove_files_except(const std::set<std::string, std::less<>>& kept) const {
+void OutputFolder::remove_results_except(const std::set<std::string, std::less<>>& kept) const {
+  static const std::set<std::filesystem::path> endings{".cfg",  ".csv",  ".fits", ".html",
+                                                       ".json", ".part", ".png",  ".svg"};
   for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-    if (!entry.is_directory() && !kept.contains(entry.path().filename().string())) {
+    if (!entry.is_directory() && endings.contains(entry.path().extension()) &&
+        !kept.contains(entry.path().filename().string())) {
       std::filesystem::remove(entry.path());
     }
   }

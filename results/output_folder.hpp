@@ -33,9 +33,9 @@ class OutputFolder {
   /// The path of a file in it.
   std::filesystem::path file(std::string_view name) const { return path_ / name; }
 
-  /// Removes the files in it, but not its folders.
+  /// Removes the files in it whose names end as those of runs do; others, such as notes, stay.
   /// @throws std::runtime_error with path and cause
-  void remove_files_except(const std::set<std::string, std::less<>>& kept) const;
+  void remove_results_except(const std::set<std::string, std::less<>>& kept) const;
 
   /// Writes a text file, under another name until it is complete.
   /// @throws std::runtime_error with path and cause

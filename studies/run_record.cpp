@@ -39,7 +39,7 @@ RunRecord::RunRecord(const CommandLine& command_line)
       memory_(std::make_shared<ArchiveMemory>(archive_, reused(command_line))) {
   if (command_line.resume) {
     archive_.clear_evaluations();
-    folder_.remove_files_except({"config.cfg", "archive.sqlite"});
+    folder_.remove_results_except({"config.cfg", "archive.sqlite"});
   } else {
     folder_.write("config.cfg", command_line.configuration.dump());
   }

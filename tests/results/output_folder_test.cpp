@@ -142,15 +142,19 @@ TEST_F(OutputFolderTest, WritesThroughNoLink) {
   EXPECT_FALSE(fs::is_symlink("mine/table.csv"));
 }
 
-TEST_F(OutputFolderTest, RemovesLinksButNoFolders) {
+TEST_F(OutputFolderTest, RemovesResultsAndLinksOfTheirNamesAlone) {
   const OutputFolder folder("mine", "evaluate");
   std::ofstream("target") << "mine";
-  fs::create_symlink(fs::absolute("target"), "mine/link");
-  fs::create_symlink("nowhere", "mine/dangling");
-  fs::create_directory("mine/folder");
-  std::ofstream("mine/kept") << "";
-  folder.remove_files_except({"kept"});
-  EXPECT_THAT(names_in("mine"), ElementsAre("folder", "kept"));
+  fs::create_symlink(fs::absolute("target"), "mine/link.fits");
+  fs::create_symlink("nowhere", "mine/dangling.png");
+  fs::create_directory("mine/folder.csv");
+  for (const char* name :
+       {"kept.cfg", "best.cfg", "table.csv.part", "notes.txt", "archive.sqlite"}) {
+    std::ofstream(std::string("mine/") + name) << "";
+  }
+  folder.remove_results_except({"kept.cfg"});
+  EXPECT_THAT(names_in("mine"),
+              ElementsAre("archive.sqlite", "folder.csv", "kept.cfg", "notes.txt"));
   EXPECT_EQ(contents("target"), "mine");
 }
 
