@@ -138,14 +138,10 @@ DesignSearch::DesignSearch(const Configuration& configuration)
   }
 }
 
-void DesignSearch::remember_in(const std::shared_ptr<TrialMemory>& memory) {
-  for (DesignTrial* each : {&trial, &verification, &scan}) each->remember_in(memory);
-  if (cheap_) cheap_->trial.remember_in(memory);
-}
-
-void DesignSearch::run_on(const std::shared_ptr<TrialRunner>& runner) {
-  for (DesignTrial* each : {&trial, &verification, &scan}) each->run_on(runner);
-  if (cheap_) cheap_->trial.run_on(runner);
+std::vector<DesignTrial*> DesignSearch::trials() {
+  std::vector<DesignTrial*> all{&trial, &verification, &scan};
+  if (cheap_) all.push_back(&cheap_->trial);
+  return all;
 }
 
 DesignSearchResult DesignSearch::run(Archive& archive, const Progress* whole) const {

@@ -62,10 +62,8 @@ class DesignSearch {
   /// @throws InputError where values do not go together
   explicit DesignSearch(const Configuration& configuration);
 
-  /// See DesignTrial::remember_in.
-  void remember_in(const std::shared_ptr<TrialMemory>& memory);
-  /// See DesignTrial::run_on.
-  void run_on(const std::shared_ptr<TrialRunner>& runner);
+  /// The trials of all its stages, for RunRecord::adopt.
+  std::vector<DesignTrial*> trials();
 
   /// The cheap stage where there is one, the search, the verification on fresh screens and the
   /// scan of how far the best design's variables may move. An interrupt of the search ends it with

@@ -21,8 +21,7 @@ void run_evaluate(const CommandLine& command_line) {
   DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
   const SensorDesign design = trial.checked(design_of(configuration));
   RunRecord record(command_line);
-  trial.remember_in(record.memory());
-  trial.run_on(command_line.runner);
+  record.adopt(trial);
 
   const Stopwatch stopwatch;
   const TriedDesign tried = [&] {

@@ -170,8 +170,7 @@ void run_law(const CommandLine& command_line) {
     Progress progress("law", double(ratios.size()), "seeings");
     for (const double ratio : ratios) {
       DesignSearch task(at_seeing(configuration, order, ratio));
-      task.remember_in(record.memory());
-      task.run_on(command_line.runner);
+      for (DesignTrial* trial : task.trials()) record.adopt(*trial);
       const DesignSearchResult result = task.run(record.archive(), &progress);
       if (!result.interrupted_when.empty()) break;
       data.push_back(datum_of(task, result));

@@ -142,8 +142,7 @@ void run_optimize(const CommandLine& command_line) {
   const Stopwatch stopwatch;
   DesignSearch task(configuration);
   RunRecord record(command_line);
-  task.remember_in(record.memory());
-  task.run_on(command_line.runner);
+  for (DesignTrial* trial : task.trials()) record.adopt(*trial);
   const DesignSearchResult result = task.run(record.archive());
   if (!result.interrupted_when.empty()) record.note_interrupted(result.interrupted_when);
 

@@ -46,6 +46,11 @@ RunRecord::RunRecord(const CommandLine& command_line)
   if (!command_line.silent) print_ignored_keys(command_line);
 }
 
+void RunRecord::adopt(DesignTrial& trial) const {
+  trial.remember_in(memory_);
+  trial.run_on(command_line_.runner);
+}
+
 void RunRecord::note_interrupted(const std::string& what) {
   if (command_line_.silent) throw RunInterrupted(fmt::format("interrupted when {}", what));
   interruption_ = what;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "objectives/trial_memory.hpp"
+#include "objectives/design_trial.hpp"
 #include "results/archive.hpp"
 #include "results/output_folder.hpp"
 #include "studies/command_line.hpp"
@@ -32,8 +32,8 @@ class RunRecord {
   const OutputFolder& folder() const { return folder_; }
   /// The run's evaluations.
   Archive& archive() { return archive_; }
-  /// Where the run's trials remember what they have simulated.
-  const std::shared_ptr<TrialMemory>& memory() const { return memory_; }
+  /// From now on the trial remembers in the archive, and simulates on the ranks of the run.
+  void adopt(DesignTrial& trial) const;
 
   /// Notes that an interrupt has left the run's results with less than was asked for.
   /// @param what  for people: "5 of 16 screens are done"

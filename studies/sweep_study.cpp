@@ -413,10 +413,7 @@ void run_sweep(const CommandLine& command_line) {
   const Stopwatch stopwatch;
   Task task(configuration);
   RunRecord record(command_line);
-  for (DesignTrial* trial : {&task.trial, &task.verification}) {
-    trial->remember_in(record.memory());
-    trial->run_on(command_line.runner);
-  }
+  for (DesignTrial* trial : {&task.trial, &task.verification}) record.adopt(*trial);
   const std::size_t taken_over = record.archive().known_designs(task.trial.identity());
   const double seconds_before = record.archive().seconds_before();
   Sweep sweep(task, record);

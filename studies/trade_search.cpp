@@ -198,14 +198,6 @@ TradeSearch::TradeSearch(const Configuration& configuration)
   if (const auto point = space.point_of(configured)) options.starts.push_back(*point);
 }
 
-void TradeSearch::remember_in(const std::shared_ptr<TrialMemory>& memory) {
-  for (DesignTrial* each : {&trial, &verification}) each->remember_in(memory);
-}
-
-void TradeSearch::run_on(const std::shared_ptr<TrialRunner>& runner) {
-  for (DesignTrial* each : {&trial, &verification}) each->run_on(runner);
-}
-
 TradeResult TradeSearch::run(Archive& archive) const {
   TradeResult result;
   const InterruptWatch watch;

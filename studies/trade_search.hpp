@@ -71,11 +71,6 @@ class TradeSearch {
   /// @throws InputError where values do not go together
   explicit TradeSearch(const Configuration& configuration);
 
-  /// See DesignTrial::remember_in.
-  void remember_in(const std::shared_ptr<TrialMemory>& memory);
-  /// See DesignTrial::run_on.
-  void run_on(const std::shared_ptr<TrialRunner>& runner);
-
   /// The search, and the verification of its front on fresh screens. An interrupt of the search
   /// ends it with the front so far, which is verified all the same; one of the verification ends it
   /// with the designs so far, or the first alone on the screens that are done.

@@ -331,8 +331,7 @@ void run_trade(const CommandLine& command_line) {
   const Stopwatch stopwatch;
   TradeSearch task(configuration);
   RunRecord record(command_line);
-  task.remember_in(record.memory());
-  task.run_on(command_line.runner);
+  for (DesignTrial* trial : {&task.trial, &task.verification}) record.adopt(*trial);
   const TradeResult result = task.run(record.archive());
   note_interruption(record, task, result);
 

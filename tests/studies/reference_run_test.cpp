@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,8 @@ struct MapCase {
   std::string name;
   std::string planes;
 };
+
+void PrintTo(const MapCase& map, std::ostream* out) { *out << map.folder << '/' << map.name; }
 
 class ReferenceMap : public testing::TestWithParam<MapCase> {};
 
