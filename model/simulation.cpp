@@ -336,7 +336,6 @@ std::string Simulation::identity() const {
     text += fmt::format(" {}:{}", band.shortest, band.longest);
   }
   for (const double weight : source.weights) text += fmt::format(" {}", weight);
-  if (std::isfinite(options_.time_limit)) text += fmt::format(" {} s", options_.time_limit);
   // Names of names: each depends on all that came before.
   boost::uuids::uuid name = boost::uuids::name_generator_sha1(boost::uuids::nil_uuid())(text);
   for (const PhaseScreen& screen : screens_) {

@@ -88,8 +88,8 @@ class Simulation {
   SensorDesign checked(SensorDesign design) const;
 
   /// A name of all that decides on a design's result: model_version, telescope, wavefronts and
-  /// options, the time limit too. Equal simulations have equal names, on all machines with the same
-  /// floating point format.
+  /// options, but not the time limit, which decides only on whether there is one. Equal simulations
+  /// have equal names, on all machines with the same floating point format.
   std::string identity() const;
 
   /// The telescope that the wavefronts have come through.

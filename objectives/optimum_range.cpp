@@ -90,6 +90,8 @@ class Scan {
       const Improvement change = improvement(moved, reference_);
       scanned.cost_difference = {-change.cost.mean, change.cost.standard_error};
       scanned.is_worse = moved.violation > reference_.violation || change.verdict == Verdict::worse;
+    } catch (const TrialMemoryFailed&) {
+      throw;  // no design is to blame
     } catch (const std::exception&) {
       // No design at all.
     }

@@ -81,9 +81,13 @@ Archive::~Archive() {
 
 Archive::Archive(const std::filesystem::path& path, int flags) : path_(path) {
   sqlite3* database = nullptr;
-  const int status = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
+  // Absolute, as SQLite may take another name for that of a place elsewhere, "file:...".
+  const int status =
+      sqlite3_open_v2(std::filesystem::absolute(path).c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (status != SQLITE_OK) fail("open");
+  // The journal's end is in the folder on disk too: a power cut takes back nothing that was told.
+  execute("PRAGMA synchronous = EXTRA");
   // Another program may read it meanwhile.
   constexpr int patience_ms = 60'000;
   sqlite3_busy_timeout(database, patience_ms);
@@ -168,10 +172,20 @@ void Archive::commit() {
 
 void Archive::commit_added() {
   if (added_.empty()) return;
-  execute("BEGIN");
-  write_added();
-  execute("COMMIT");
+  in_transaction([&] { write_added(); });
   added_.clear();
+}
+
+void Archive::in_transaction(const std::function<void()>& write) {
+  execute("BEGIN");
+  try {
+    write();
+    execute("COMMIT");
+  } catch (const std::runtime_error&) {
+    // Without what its own failure would say, which is none where SQLite has done it.
+    sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+    throw;
+  }
 }
 
 void Archive::write_added() {
@@ -235,30 +249,32 @@ void Archive::keep(const std::string& trial, const std::string& design,
 
 void Archive::write(const std::vector<Keeping*>& all) {
   const std::scoped_lock lock(*lock_);
-  execute("BEGIN");
-  write_added();
-  for (const Keeping* one : all) {
-    const Statement statement = prepared(
-        database_.get(),
-        "INSERT OR REPLACE INTO trials (trial, design, performances, failure) VALUES (?, ?, ?, ?)");
-    if (!statement) fail("write to");
-    bind_text(statement.get(), 1, one->trial);
-    bind_text(statement.get(), 2, one->design);
-    const ArchivedTrial& known = one->known;
-    if (known.failure.empty()) {
-      sqlite3_bind_blob(statement.get(), 3, known.performances.data(),
-                        static_cast<int>(known.performances.size()), SQLITE_STATIC);
-    }
-    bind_text(statement.get(), 4, known.failure);
-    if (sqlite3_step(statement.get()) != SQLITE_DONE) fail("write to");
-  }
-  const Statement clock = prepared(database_.get(), "UPDATE run SET seconds = ?");
-  if (!clock) fail("write to");
-  const std::chrono::duration<double> open = std::chrono::steady_clock::now() - opened_;
-  sqlite3_bind_double(clock.get(), 1, seconds_before_ + open.count());
-  if (sqlite3_step(clock.get()) != SQLITE_DONE) fail("write to");
-  execute("COMMIT");
+  in_transaction([&] {
+    write_added();
+    for (const Keeping* one : all) write_trial(*one);
+    const Statement clock = prepared(database_.get(), "UPDATE run SET seconds = ?");
+    if (!clock) fail("write to");
+    const std::chrono::duration<double> open = std::chrono::steady_clock::now() - opened_;
+    sqlite3_bind_double(clock.get(), 1, seconds_before_ + open.count());
+    if (sqlite3_step(clock.get()) != SQLITE_DONE) fail("write to");
+  });
   added_.clear();
+}
+
+void Archive::write_trial(const Keeping& one) {
+  const Statement statement = prepared(
+      database_.get(),
+      "INSERT OR REPLACE INTO trials (trial, design, performances, failure) VALUES (?, ?, ?, ?)");
+  if (!statement) fail("write to");
+  bind_text(statement.get(), 1, one.trial);
+  bind_text(statement.get(), 2, one.design);
+  const ArchivedTrial& known = one.known;
+  if (known.failure.empty()) {
+    sqlite3_bind_blob(statement.get(), 3, known.performances.data(),
+                      static_cast<int>(known.performances.size()), SQLITE_STATIC);
+  }
+  bind_text(statement.get(), 4, known.failure);
+  if (sqlite3_step(statement.get()) != SQLITE_DONE) fail("write to");
 }
 
 std::size_t Archive::known_designs(const std::string& trial) const {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -58,6 +59,9 @@ class Archive {
   Archive& operator=(const Archive&) = delete;
   ~Archive();
 
+  /// Its file.
+  const std::filesystem::path& path() const { return path_; }
+
   /// Whose run it is.
   std::string command() const;
 
@@ -97,6 +101,9 @@ class Archive {
 
   [[noreturn]] void fail(std::string_view action) const;
   void execute(const char* sql);
+  /// What `write` writes is on disk when it returns, or none of it is.
+  /// @pre lock_ is held
+  void in_transaction(const std::function<void()>& write);
   /// @pre lock_ is held
   void commit_added();
   /// @pre lock_ is held, and a transaction is open
@@ -113,6 +120,8 @@ class Archive {
     bool is_busy = false;  // a thread writes what all before have given it
   };
   void write(const std::vector<Keeping*>& all);
+  /// @pre lock_ is held, and a transaction is open
+  void write_trial(const Keeping& one);
 
   struct Close {
     void operator()(sqlite3* database) const;

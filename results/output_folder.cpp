@@ -4,9 +4,13 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <system_error>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -28,6 +32,18 @@ bool make_folder(const std::filesystem::path& folder) {
   const bool made = std::filesystem::create_directory(folder, failure);
   if (failure != std::errc::file_exists) check(failure);
   return made;
+}
+
+/// Waits until what was written is on disk: a file's text, or the names in a folder.
+/// @return false where it cannot be
+bool sync_to_disk(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const int result = fsync(file);
+  const int error = errno;
+  close(file);
+  errno = error;
+  return result == 0;
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& requested) {
@@ -63,15 +79,27 @@ OutputFolder OutputFolder::of_earlier_run(const std::filesystem::path& path) {
   return folder;
 }
 
-void OutputFolder::remove_results_except(const std::set<std::string, std::less<>>& kept) const {
-  static const std::set<std::filesystem::path> endings{".cfg",  ".csv",  ".fits", ".html",
-                                                       ".json", ".part", ".png",  ".svg"};
+void OutputFolder::remove_results() const {
   for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-    if (!entry.is_directory() && endings.contains(entry.path().extension()) &&
-        !kept.contains(entry.path().filename().string())) {
+    if (!entry.is_directory() && is_result(entry.path().filename())) {
       std::filesystem::remove(entry.path());
     }
   }
+}
+
+bool is_result(const std::filesystem::path& name) {
+  static const std::set<std::string, std::less<>> stems{
+      "best",        "claims", "convergence", "design",         "front",          "knee",
+      "law",         "loops",  "numerics",    "report",         "screens",        "search",
+      "summary",     "sweep",  "sensitivity", "typical-images", "typical-phases", "worst-images",
+      "worst-phases"};
+  static const std::set<std::string, std::less<>> endings{".cfg",  ".csv", ".fits", ".html",
+                                                          ".json", ".md",  ".png",  ".svg"};
+  if (name.extension() == ".part") return true;
+  const std::string stem = name.stem().string();
+  return endings.contains(name.extension().string()) &&
+         (stems.contains(stem) || stem.starts_with("map-") || stem.starts_with("figure-") ||
+          stem.starts_with("response"));
 }
 
 void OutputFolder::write(std::string_view name, std::string_view text) const {
@@ -82,11 +110,13 @@ void OutputFolder::write(std::string_view name, std::string_view text) const {
   std::ofstream stream(partial, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) {
+  // Before the name is there: a power cut leaves no file of it that is empty or cut.
+  if (!stream || !sync_to_disk(partial)) {
     throw std::runtime_error(
         fmt::format("cannot write {}: {}", partial.string(), std::strerror(errno)));
   }
   std::filesystem::rename(partial, target);
+  sync_to_disk(path_);  // where the file system can
 }
 
 }  // namespace nlcwfs

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -33,11 +31,13 @@ class OutputFolder {
   /// The path of a file in it.
   std::filesystem::path file(std::string_view name) const { return path_ / name; }
 
-  /// Removes the files in it whose names end as those of runs do; others, such as notes, stay.
+  /// Removes what an earlier run has left in it but its configuration and archive; files that have
+  /// no names of results stay.
   /// @throws std::runtime_error with path and cause
-  void remove_results_except(const std::set<std::string, std::less<>>& kept) const;
+  void remove_results() const;
 
-  /// Writes a text file, under another name until it is complete.
+  /// Writes a text file, under another name until it is complete. It is on disk when the function
+  /// returns.
   /// @throws std::runtime_error with path and cause
   void write(std::string_view name, std::string_view text) const;
 
@@ -46,5 +46,9 @@ class OutputFolder {
 
   std::filesystem::path path_;
 };
+
+/// Whether a run that can be resumed makes files of this name again: all of its files but
+/// config.cfg and archive.sqlite have such names.
+bool is_result(const std::filesystem::path& name);
 
 }  // namespace nlcwfs

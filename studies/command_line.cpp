@@ -211,7 +211,8 @@ Configuration resumed_configuration(const CommandLine& command_line,
   if (!std::filesystem::is_regular_file(folder / "config.cfg") ||
       !std::filesystem::is_regular_file(folder / "archive.sqlite")) {
     throw InputError("--resume", shown,
-                     "has no config.cfg and archive.sqlite; name the folder of an interrupted run");
+                     "has no config.cfg and archive.sqlite; name the folder of an interrupted run, "
+                     "or begin anew one that was ended before it had them");
   }
   if (!configuring.empty()) {
     throw InputError(

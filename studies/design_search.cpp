@@ -8,8 +8,12 @@
 #include "studies/search_log.hpp"
 #include "studies/settings.hpp"
 #include "studies/stopwatch.hpp"
+#include "studies/text.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <optional>
+#include <spdlog/spdlog.h>
 #include <stdexcept>
 #include <stop_token>
 #include <utility>
@@ -185,35 +189,43 @@ void DesignSearch::verify(Archive& archive, const Progress* whole,
   const std::size_t count = std::min(leaders.size(), static_cast<std::size_t>(candidates_));
   Progress progress = verification_progress(
       verification, count + 1, may_end ? "then how far each variable may move" : "", whole);
-  const auto verified = [&](const SensorDesign& design) {
-    TriedDesign tried = verified_design(design, verification, archive,
-                                        may_end ? interruptible(progress) : counted(progress));
+  const auto watch = [&] { return may_end ? interruptible(progress) : counted(progress); };
+  const auto count_screens = [&](const TriedDesign& tried) {
     result.reconstructions +=
         static_cast<long>(verification.conditions().size() * tried.costs.size());
-    return tried;
   };
   const auto is_whole = [&](const TriedDesign& tried) {
     return static_cast<int>(tried.costs.size()) == verification.screen_count();
   };
   // The baseline first: whatever is done later can then be held against it.
-  result.baseline = verified(baseline);
-  std::vector<TriedDesign> candidates;
+  result.baseline = verified_design(baseline, verification, archive, watch());
+  count_screens(result.baseline);
+  std::vector<RankedDesign> candidates;
+  std::size_t failures = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    TriedDesign tried = verified(space.design(leaders[i].point));
-    if (!is_whole(tried) && i > 0) break;
-    candidates.push_back(std::move(tried));
+    std::optional<TriedDesign> tried =
+        verified_candidate(space.design(leaders[i].point), verification, archive, watch(),
+                           candidates.empty() && i + 1 == count);
+    if (!tried) {
+      ++failures;
+      continue;
+    }
+    count_screens(*tried);
+    if (!is_whole(*tried) && !candidates.empty()) break;
+    candidates.push_back({.candidate = i, .verified = std::move(*tried)});
     if (may_end && InterruptWatch::interrupted()) break;
   }
-  const std::size_t screens = std::min(result.baseline.costs.size(), candidates[0].costs.size());
+  TriedDesign& first = candidates.front().verified;
+  const std::size_t screens = std::min(result.baseline.costs.size(), first.costs.size());
   if (static_cast<int>(screens) < verification.screen_count()) {
     result.baseline = verification.on_first_screens(std::move(result.baseline), screens);
     candidates.resize(1);
-    candidates[0] = verification.on_first_screens(std::move(candidates[0]), screens);
+    first = verification.on_first_screens(std::move(first), screens);
     result.interrupted_when = fmt::format("the best design was verified on {} of {} screens",
                                           screens, verification.screen_count());
-  } else if (candidates.size() < count) {
+  } else if (candidates.size() + failures < count) {
     result.interrupted_when =
-        fmt::format("{} of {} designs were verified", candidates.size(), count);
+        fmt::format("{} of {} designs were verified", candidates.size() + failures, count);
   }
   result.ranking = ranked(std::move(candidates));
   result.gain = improvement(result.best(), result.baseline);
@@ -222,13 +234,22 @@ void DesignSearch::verify(Archive& archive, const Progress* whole,
 void DesignSearch::scan_ranges(const Progress* whole, DesignSearchResult& result) const {
   const SearchPoint& best = result.search.best_designs[result.ranking.front().candidate].point;
   Progress progress("how far each variable may move", 1.0, "of the scan", "", whole);
-  OptimumScan scanned = optimum_ranges(
-      space, scan, best,
-      [&](double share) {
-        progress.describe(fmt::format("{:.0f} %", 100.0 * share));
-        progress.at(share);
-      },
-      [] { return !InterruptWatch::interrupted(); });
+  OptimumScan scanned;
+  try {
+    scanned = optimum_ranges(
+        space, scan, best,
+        [&](double share) {
+          progress.describe(fmt::format("{:.0f} %", 100.0 * share));
+          progress.at(share);
+        },
+        [] { return !InterruptWatch::interrupted(); });
+  } catch (const TrialMemoryFailed&) {
+    throw;  // no design is to blame
+  } catch (const std::exception& error) {
+    spdlog::warn("how far each variable may move is not known, as the best design failed: {}",
+                 without_controls(error.what()));
+    return;
+  }
   result.ranges = std::move(scanned.ranges);
   result.reconstructions +=
       static_cast<long>(scan.conditions().size()) * scan.screen_count() * scanned.designs;

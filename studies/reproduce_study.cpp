@@ -54,7 +54,7 @@ void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::pat
                  const std::shared_ptr<TrialRunner>& runner) {
   const auto is_done = [&](const PlannedRun& run) {
     const std::filesystem::path path = folder / run.folder;
-    return is_of(run, path) && std::filesystem::exists(path / "summary.json");
+    return is_of(run, path) && is_complete(path);
   };
   double all = 0.0;
   double done = 0.0;

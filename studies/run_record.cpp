@@ -34,14 +34,17 @@ RunRecord::RunRecord(const CommandLine& command_line)
     : command_line_(command_line),
       folder_(command_line.resume ? OutputFolder::of_earlier_run(*command_line.resume)
                                   : OutputFolder(command_line.output, command_line.command)),
+      lock_(command_line.resume ? std::make_unique<FolderLock>(folder_.path()) : nullptr),
       archive_(command_line.resume ? Archive::reopened(folder_.file("archive.sqlite"))
                                    : Archive(folder_.file("archive.sqlite"), command_line.command)),
       memory_(std::make_shared<ArchiveMemory>(archive_, reused(command_line))) {
   if (command_line.resume) {
     archive_.clear_evaluations();
-    folder_.remove_results_except({"config.cfg", "archive.sqlite"});
+    folder_.remove_results();
   } else {
+    // Last: a folder that has it has all that it takes to go on.
     folder_.write("config.cfg", command_line.configuration.dump());
+    lock_ = std::make_unique<FolderLock>(folder_.path());
   }
   if (!command_line.silent) print_ignored_keys(command_line);
 }

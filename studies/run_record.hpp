@@ -2,6 +2,7 @@
 
 #include "objectives/design_trial.hpp"
 #include "results/archive.hpp"
+#include "results/folder_lock.hpp"
 #include "results/output_folder.hpp"
 #include "studies/command_line.hpp"
 #include "studies/interrupt.hpp"
@@ -24,7 +25,8 @@ bool is_complete(const std::filesystem::path& folder);
 class RunRecord {
  public:
   /// Makes the folder with the configuration and an empty archive; with --resume it takes those of
-  /// the earlier run, and whatever else that has left is made anew. Notes keys that the command
+  /// the earlier run, and whatever else that has left is made anew. No other process may have its
+  /// run there meanwhile. Notes keys that the command
   /// ignores. Call it when nothing in the input can be wrong any more.
   explicit RunRecord(const CommandLine& command_line);
 
@@ -61,6 +63,7 @@ class RunRecord {
   InterruptWatch watch_;
   std::string interruption_;  // empty without one
   OutputFolder folder_;
+  std::unique_ptr<FolderLock> lock_;
   Archive archive_;
   std::shared_ptr<TrialMemory> memory_;
 };

@@ -27,6 +27,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 
@@ -199,18 +200,16 @@ void Sweep::run(const CommandLine& command_line) {
   for (std::size_t first = 0; first < designs_.size(); first += together) {
     const std::size_t count = std::min(together, designs_.size() - first);
     std::vector<std::optional<Tried>> batch(count);
-    all_at_once(count, [&](std::size_t i) {
-      if (InterruptWatch::interrupted()) return;
-      batch[i] = tried_design(designs_[first + i], task_);
-      progress.advance();
-    });
+    std::size_t next = 0;
+    std::mutex lock;
     // In the order of the designs, so that equal sweeps have equal archives.
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!batch[i]) continue;
+    const auto take_next = [&] {
+      const std::size_t i = next++;
+      if (!batch[i]) return;
       archive_and_log(archive, batch[i]->evaluation);
       outcomes_[first + i] = std::move(batch[i]->outcome);
       ++done_;
-      if (batch[i]->is_refused) continue;
+      if (batch[i]->is_refused) return;
       failures.add(!outcomes_[first + i]->failure.empty());
       if (failures.is_too_high()) {
         throw std::runtime_error(fmt::format(
@@ -219,7 +218,18 @@ void Sweep::run(const CommandLine& command_line) {
             failures.in_a_row(), designs_.size(), outcomes_[first + i]->failure,
             record_.folder().path().string()));
       }
-    }
+    };
+    all_at_once(count, [&](std::size_t i) {
+      if (InterruptWatch::interrupted()) return;
+      std::optional<Tried> tried = tried_design(designs_[first + i], task_);
+      progress.advance();
+      const std::scoped_lock guard(lock);
+      batch[i] = std::move(tried);
+      // Not only after the batch: where all fail, this begins no more of them.
+      while (!failures.is_too_high() && next < count && batch[next]) take_next();
+    });
+    // Those behind one that an interrupt ended.
+    while (next < count) take_next();
   }
   seconds_ = archive.seconds_before() + stopwatch.seconds();
 }
@@ -366,18 +376,23 @@ std::string how_to_go_on(const RunRecord& record) {
   return fmt::format("go on with: nlcwfs sweep --resume {}", record.folder().path().string());
 }
 
-/// On fresh screens.
+/// On fresh screens, without those that fail there.
+/// @throws VerificationFailed where all do
 std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const Sweep& sweep,
                                      const Task& task, RunRecord& record, const Progress* whole) {
-  std::vector<TriedDesign> verified;
+  std::vector<RankedDesign> verified;
   Progress progress = verification_progress(task.verification, best.size(), "", whole);
-  for (const std::size_t design : best) {
-    verified.push_back(verified_design(sweep.designs()[design].design, task.verification,
-                                       record.archive(), interruptible(progress)));
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    const bool is_last = i + 1 == best.size();
+    std::optional<TriedDesign> tried =
+        verified_candidate(sweep.designs()[best[i]].design, task.verification, record.archive(),
+                           interruptible(progress), verified.empty() && is_last);
     const bool is_whole =
-        static_cast<int>(verified.back().costs.size()) == task.verification.screen_count();
-    if (is_whole && (!InterruptWatch::interrupted() || verified.size() == best.size())) continue;
-    throw RunInterrupted(fmt::format("in the verification; {}", how_to_go_on(record)));
+        !tried || static_cast<int>(tried->costs.size()) == task.verification.screen_count();
+    if (!is_whole || (InterruptWatch::interrupted() && !is_last)) {
+      throw RunInterrupted(fmt::format("in the verification; {}", how_to_go_on(record)));
+    }
+    if (tried) verified.push_back({.candidate = i, .verified = std::move(*tried)});
   }
   return ranked(std::move(verified));
 }

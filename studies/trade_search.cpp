@@ -249,10 +249,16 @@ void TradeSearch::verify_front(TradeResult& result, Archive& archive) const {
   Progress progress = verification_progress(verification, chosen.size());
   for (const std::size_t i : chosen) {
     const EvaluatedDesign& found = front[i];
+    std::optional<TriedDesign> tried =
+        verified_candidate(space.design(found.point), verification, archive,
+                           was_interrupted ? counted(progress) : interruptible(progress),
+                           result.front.empty() && i == chosen.back());
+    if (!tried) {
+      --result.chosen_count;
+      continue;
+    }
     TradedDesign traded;
-    traded.verified =
-        verified_design(space.design(found.point), verification, archive,
-                        was_interrupted ? counted(progress) : interruptible(progress));
+    traded.verified = std::move(*tried);
     const std::size_t screens = traded.verified.costs.size();
     result.reconstructions += static_cast<long>(verification.conditions().size() * screens);
     const bool is_whole = static_cast<int>(screens) == verification.screen_count();
@@ -269,7 +275,7 @@ void TradeSearch::verify_front(TradeResult& result, Archive& archive) const {
     }
     result.front.push_back(std::move(traded));
     if (!was_interrupted && InterruptWatch::interrupted()) {
-      result.verification_interrupted = !is_whole || result.front.size() < chosen.size();
+      result.verification_interrupted = !is_whole || result.front.size() < result.chosen_count;
       return;
     }
   }

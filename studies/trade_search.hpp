@@ -55,10 +55,11 @@ struct TradeResult {
   /// For each objective but the first: the first objective's best under ever wider bounds on it.
   std::vector<std::vector<BoundedBest>> bests;
   bool verification_interrupted = false;  ///< whether Ctrl-C left designs of the front unverified
-  std::size_t chosen_count = 0;           ///< designs of the front that were to be verified
-  long reconstructions = 0;               ///< the verification included
-  double search_seconds = 0.0;            ///< without the verification, s
-  std::string table;                      ///< CSV of the designs of the search
+  /// Designs of the front that were to be verified, without those that failed there.
+  std::size_t chosen_count = 0;
+  long reconstructions = 0;     ///< the verification included
+  double search_seconds = 0.0;  ///< without the verification, s
+  std::string table;            ///< CSV of the designs of the search
 
   /// How many of the verified designs no other betters on fresh screens.
   std::size_t standing_count() const;

@@ -5,11 +5,14 @@
 #include "studies/design_text.hpp"
 #include "studies/evaluation_log.hpp"
 #include "studies/stopwatch.hpp"
+#include "studies/text.hpp"
 #include "studies/trial_summary.hpp"
 #include "studies/units.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <spdlog/spdlog.h>
 #include <utility>
 
 #include <fmt/format.h>
@@ -48,28 +51,51 @@ Progress verification_progress(const DesignTrial& verification, std::size_t desi
 TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verification,
                             Archive& archive, const ScreenWatch& watch) {
   const Stopwatch stopwatch;
-  TriedDesign tried = verification.run(design, {}, watch);
   const Condition& first = verification.conditions().front();
-  if (static_cast<int>(tried.costs.size()) < verification.screen_count()) return tried;
-  archive_and_log(
-      archive,
-      {.stage = "verify",
-       .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
-       .cost = mean_and_standard_error(tried.costs).mean,
-       .failure = "",
-       .seconds = stopwatch.seconds(),
-       .performance = to_json(pooled(tried.performances)).dump(),
-       .key = design_key(design)});
-  return tried;
+  ArchivedEvaluation evaluation{
+      .stage = "verify",
+      .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
+      .cost = std::numeric_limits<double>::quiet_NaN(),
+      .failure = {},
+      .seconds = 0.0,
+      .performance = {},
+      .key = design_key(design)};
+  try {
+    TriedDesign tried = verification.run(design, {}, watch);
+    if (static_cast<int>(tried.costs.size()) < verification.screen_count()) return tried;
+    evaluation.cost = mean_and_standard_error(tried.costs).mean;
+    evaluation.performance = to_json(pooled(tried.performances)).dump();
+    evaluation.seconds = stopwatch.seconds();
+    archive_and_log(archive, evaluation);
+    return tried;
+  } catch (const TrialMemoryFailed&) {
+    throw;  // no design is to blame
+  } catch (const std::exception& error) {
+    evaluation.failure = error.what();
+  }
+  evaluation.seconds = stopwatch.seconds();
+  archive_and_log(archive, evaluation);
+  const std::string folder = archive.path().parent_path().string();
+  throw VerificationFailed(fmt::format(
+      "a design failed on the fresh screens: {}; with --config {}/config.cfg --reuse {} a new run "
+      "takes over what is simulated, and tries again what failed",
+      evaluation.failure, folder, folder));
 }
 
-std::vector<RankedDesign> ranked(std::vector<TriedDesign> verified) {
-  std::vector<RankedDesign> ranking;
-  ranking.reserve(verified.size());
-  for (TriedDesign& tried : verified) {
-    ranking.push_back(
-        {.candidate = ranking.size(), .verified = std::move(tried), .against_best = {}});
+std::optional<TriedDesign> verified_candidate(const SensorDesign& design,
+                                              const DesignTrial& verification, Archive& archive,
+                                              const ScreenWatch& watch, bool is_last_hope) {
+  try {
+    return verified_design(design, verification, archive, watch);
+  } catch (const VerificationFailed& failure) {
+    if (is_last_hope) throw;
+    spdlog::warn("{}", without_controls(failure.what()));
+    return std::nullopt;
   }
+}
+
+std::vector<RankedDesign> ranked(std::vector<RankedDesign> candidates) {
+  std::vector<RankedDesign> ranking = std::move(candidates);
   std::ranges::stable_sort(ranking, {}, [](const RankedDesign& design) {
     return std::pair(design.verified.violation,
                      mean_and_standard_error(design.verified.costs).mean);

@@ -6,6 +6,8 @@
 #include "studies/progress.hpp"
 
 #include <cstddef>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,13 +21,27 @@ namespace nlcwfs {
 Progress verification_progress(const DesignTrial& verification, std::size_t designs,
                                std::string then = {}, const Progress* whole = nullptr);
 
+/// Thrown where a design fails on the fresh screens; says why, and how to go on without a failure.
+class VerificationFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A design on fresh screens, archived where the watch did not end it early.
+/// @throws VerificationFailed, once that is archived and logged
 TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verification,
                             Archive& archive, const ScreenWatch& watch);
 
+/// The same of one of several designs: nothing where it fails, of which it warns.
+/// @param is_last_hope  none before has survived, and none follows
+/// @throws VerificationFailed where it is
+std::optional<TriedDesign> verified_candidate(const SensorDesign& design,
+                                              const DesignTrial& verification, Archive& archive,
+                                              const ScreenWatch& watch, bool is_last_hope);
+
 /// One of the best designs of a search or a sweep, held against the best of them on fresh screens.
 struct RankedDesign {
-  std::size_t candidate = 0;  ///< its place among those that were verified
+  std::size_t candidate = 0;  ///< its place among those that were to be verified
   TriedDesign verified;       ///< on fresh screens
   /// The best design's cost minus this one's, paired by screen; better or worse than the best where
   /// it can be told apart.
@@ -33,7 +49,8 @@ struct RankedDesign {
 };
 
 /// Those that keep the limits, or come closest, first; of these by their costs.
-std::vector<RankedDesign> ranked(std::vector<TriedDesign> verified);
+/// @param candidates  with verified designs
+std::vector<RankedDesign> ranked(std::vector<RankedDesign> candidates);
 
 /// A ranking as summaries have it.
 nlohmann::ordered_json to_json(const std::vector<RankedDesign>& ranking,

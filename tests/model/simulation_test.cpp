@@ -583,8 +583,9 @@ TEST(Simulation, FailsWhereAWavefrontTakesTooLong) {
   const Simulation unlimited({}, screens, {});
   EXPECT_EQ(patient.evaluate(small_design()).screens[1].wavefront.total_wfe,
             unlimited.evaluate(small_design()).screens[1].wavefront.total_wfe);
-  EXPECT_NE(slow.identity(), patient.identity());
-  EXPECT_NE(patient.identity(), unlimited.identity());
+  // It decides on whether there is a result, not on the result.
+  EXPECT_EQ(slow.identity(), unlimited.identity());
+  EXPECT_EQ(patient.identity(), unlimited.identity());
 }
 
 TEST(Simulation, EndsWithItsFirstScreensWhereTheWatchSaysSo) {

@@ -31,6 +31,8 @@ RUNS = {
     "race": ["optimize", "--search.budget", "40", "--search.race", "0.05", "--screens.count", "24"],
     "trade": ["trade", "--trade.budget", "32", "--trade.population", "8", *SCREENS],
     "evaluate": ["evaluate", "--screens.count", "64"],
+    "law": ["law", "--law.d_over_r0", "3,4,5,6", "--search.budget", "8", *SCREENS],
+    "reproduce": ["reproduce", "--figure", "scaling", "--screens.count", "2"],
 }
 
 
@@ -44,17 +46,18 @@ def result(folder):
     return {**archived(folder), "tables": tables}
 
 
-def environment():
+def environment_of_ranks():
     """Open MPI's leave to run as root, on more ranks than cores and, with sanitizers, to leak memory;
     others do not read it."""
     return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
-            "ASAN_OPTIONS": "detect_leaks=0"}
+            "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0"}
 
 
 def start(ranks, *words):
     launcher = [MPIRUN, "-n", str(ranks)] if ranks else []
-    return subprocess.Popen([*launcher, PROGRAM, *map(str, words)], env=environment(), text=True,
+    return subprocess.Popen([*launcher, PROGRAM, *map(str, words)], text=True,
+                            env=environment_of_ranks() if ranks else None,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
@@ -109,6 +112,18 @@ def test_bad_input(root):
     print("bad input is refused once")
 
 
+def test_failures(root):
+    """Where every design fails, no more are tried than are in flight: not the whole batch."""
+    folder = root / "failures"
+    code, _, errors = run(2, "sweep", "--sweep.z_near", "20km:60km:40", "--sweep.z_far", "80km:160km:40",
+                          *SETTINGS[:-3], "--screens.count", "1", "--simulation.time_limit", "1us",
+                          "--threads", "13", "--quiet", "--output", folder)
+    require(code == 1 and "20 of 1600 designs failed one after the other" in errors, f"{code} {errors}")
+    tried = len(trials(folder))
+    require(20 <= tried < 800, f"{tried} designs were tried, the first 20 failed")
+    print(f"designs that all fail end a sweep after {tried} of 1600")
+
+
 def test_killed_rank(root):
     words = [*RUNS["sweep"], *SETTINGS]
     folder = root / "killed"
@@ -134,7 +149,7 @@ def main():
         print(f"{MPIRUN} cannot start a program here")
         sys.exit(NO_MPIRUN)
     root = pathlib.Path(tempfile.mkdtemp(prefix="ranks-"))
-    for test in (test_same_results, test_bad_input, test_killed_rank):
+    for test in (test_same_results, test_bad_input, test_failures, test_killed_rank):
         test(root)
     shutil.rmtree(root)
 

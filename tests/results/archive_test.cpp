@@ -298,6 +298,10 @@ TEST_F(ArchiveTest, TellsEveryThreadThatItCannotKeep) {
     }
   }
   EXPECT_EQ(failures, 8);
+  // Where there is room again, it goes on.
+  archive.keep("trial", "0", {std::vector<std::uint8_t>(10000)});
+  EXPECT_TRUE(archive.find("trial", "0"));
+  EXPECT_FALSE(archive.find("trial", "1"));
 }
 
 TEST_F(ArchiveTest, KnowsWhoseRunItIsAndWhatItsTrialsFound) {

@@ -145,16 +145,20 @@ TEST_F(OutputFolderTest, WritesThroughNoLink) {
 TEST_F(OutputFolderTest, RemovesResultsAndLinksOfTheirNamesAlone) {
   const OutputFolder folder("mine", "evaluate");
   std::ofstream("target") << "mine";
-  fs::create_symlink(fs::absolute("target"), "mine/link.fits");
-  fs::create_symlink("nowhere", "mine/dangling.png");
-  fs::create_directory("mine/folder.csv");
-  for (const char* name :
-       {"kept.cfg", "best.cfg", "table.csv.part", "notes.txt", "archive.sqlite"}) {
+  fs::create_symlink(fs::absolute("target"), "mine/worst-images.fits");
+  fs::create_symlink("nowhere", "mine/map-cost.png");
+  fs::create_directory("mine/search.csv");
+  for (const char* name : {"config.cfg", "archive.sqlite", "best.cfg", "table.csv.part",
+                           "design.svg", "figure-3-map.png", "response-map-wfe.svg"}) {
     std::ofstream(std::string("mine/") + name) << "";
   }
-  folder.remove_results_except({"kept.cfg"});
+  const std::vector<std::string> users{"mask.fits", "my.cfg", "notes.txt", "search.txt",
+                                       "search-2.csv"};
+  for (const std::string& name : users) std::ofstream("mine/" + name) << "";
+  folder.remove_results();
   EXPECT_THAT(names_in("mine"),
-              ElementsAre("archive.sqlite", "folder.csv", "kept.cfg", "notes.txt"));
+              ElementsAre("archive.sqlite", "config.cfg", "mask.fits", "my.cfg", "notes.txt",
+                          "search-2.csv", "search.csv", "search.txt"));
   EXPECT_EQ(contents("target"), "mine");
 }
 

@@ -51,6 +51,14 @@ def trials(folder):
         database.close()
 
 
+def trials_of_killed(folder):
+    """Read in a copy, so that it is the resumed run that takes an unfinished commit back."""
+    with tempfile.TemporaryDirectory() as copy:
+        for path in folder.glob("archive.sqlite*"):
+            shutil.copy(path, copy)
+        return trials(pathlib.Path(copy))
+
+
 def result(folder):
     """All that a run leaves and no clock has a say in."""
     database = sqlite3.connect(folder / "archive.sqlite")
@@ -114,17 +122,18 @@ def kill_and_resume(program, command, kills, dice, root):
         folder = root / f"{command}-{runs}"
         runs += 1
         known = {}
-        while True:
+        is_done = False
+        while not is_done:
             process = run(program, command, folder)
             patience = dice.uniform(0.0, 0.5 * seconds) if killed < kills else None
             try:
                 require(process.wait(patience) == 0, f"{command} failed in {folder}")
-                break
+                is_done = True
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
                 killed += 1
-            now = trials(folder)
+            now = trials_of_killed(folder)
             for key, value in known.items():
                 require(now.get(key) is not None, f"{command} lost an evaluation in {folder}")
                 # Of a race or an interrupt more screens may have followed.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "results/output_folder.hpp"
+#include "studies/commands.hpp"
 #include "tests/paths.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -62,6 +64,7 @@ class Program : public ScratchFolder {
       const bool is_text = character == '\n' || (character >= ' ' && character <= '~');
       EXPECT_TRUE(is_text) << "control character " << int(character);
     }
+    if (command_of(command).resumable) expect_results_alone(folder);
     return finished;
   }
 
@@ -87,6 +90,15 @@ class Program : public ScratchFolder {
     nlohmann::json json = summary(folder);
     erase_times(json);
     return json;
+  }
+
+  /// What a run that goes on in the folder would make again.
+  static void expect_results_alone(const std::string& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::filesystem::path name = entry.path().filename();
+      if (entry.is_directory() || name == "config.cfg" || name == "archive.sqlite") continue;
+      EXPECT_TRUE(is_result(name)) << name << " is not known as a result";
+    }
   }
 
  private:

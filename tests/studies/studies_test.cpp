@@ -662,10 +662,12 @@ TEST_F(Studies, WithoutAFolderOfTheUsersRunsAreNumbered) {
 }
 
 TEST_F(Studies, FoldersMayHaveAnyName) {
-  for (const std::string folder : {"two words/and parents", "it's", "\xC3\xBC", "slash/"}) {
+  for (const std::string folder :
+       {"two words/and parents", "it's", "\xC3\xBC", "slash/", "file:a?b"}) {
     const ProgramRun finished = run({"evaluate", "--config", "tiny.cfg", "--output", folder});
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
     EXPECT_TRUE(std::filesystem::exists(folder + "/summary.json")) << folder;
+    EXPECT_TRUE(std::filesystem::exists(folder + "/archive.sqlite")) << folder;
   }
 }
 

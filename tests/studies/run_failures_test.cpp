@@ -1,0 +1,169 @@
+// What becomes of a run whose designs fail where they are verified, that another process works in,
+// or whose trials another run takes over.
+
+#include "objectives/design_space.hpp"
+#include "results/archive.hpp"
+#include "results/design_summary.hpp"
+#include "results/folder_lock.hpp"
+#include "studies/settings.hpp"
+#include "tests/studies/program.hpp"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+
+namespace nlcwfs {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+class RunFailures : public Program {
+ protected:
+  /// The runs here verify three designs.
+  void SetUp() override {
+    Program::SetUp();
+    std::ofstream("tiny.cfg", std::ios::app) << "z_far = 100km,150km\n";
+    std::ofstream("tiny.cfg", std::ios::app) << "[verify]\ncandidates = 3\n";
+  }
+
+  static Json summary() { return Json::parse(contents("run/summary.json")); }
+
+  /// From now on the archive knows that the design failed on the fresh screens, and the run has not
+  /// ended.
+  static void let_fail(const Json& design) {
+    Configuration configuration;
+    configuration.read_file("run/config.cfg");
+    Archive::reopened("run/archive.sqlite")
+        .keep(verification_trial_of(configuration).identity(), exact_text(design_from_json(design)),
+              {.performances = {}, .failure = "the light went out"});
+    std::filesystem::remove("run/summary.json");
+  }
+
+  static std::vector<std::string> failures() {
+    std::vector<std::string> all;
+    for (const ArchivedEvaluation& row : Archive::reopened("run/archive.sqlite").evaluations()) {
+      if (row.stage == "verify" && !row.failure.empty()) all.push_back(row.failure);
+    }
+    return all;
+  }
+
+  /// Lets the best design of a finished run fail, then goes on with it.
+  static void expect_the_next_is_the_best(const std::string& command) {
+    done(command, "run");
+    const Json before = summary()["ranking"];
+    ASSERT_EQ(before.size(), 3u);
+    let_fail(before[0]);
+    const ProgramRun resumed = run({command, "--resume", "run"});
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.errors;
+    EXPECT_THAT(resumed.errors,
+                HasSubstr("a design failed on the fresh screens: the light went out; with --config "
+                          "run/config.cfg --reuse run a new run takes over"));
+    const Json after = summary()["ranking"];
+    ASSERT_EQ(after.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(after[i]["planes_m"], before[i + 1]["planes_m"]);
+      EXPECT_EQ(after[i]["cost"], before[i + 1]["cost"]);
+    }
+    EXPECT_THAT(failures(), testing::ElementsAre("the light went out"));
+    EXPECT_EQ(summary()["interrupted"], false);
+  }
+};
+
+TEST_F(RunFailures, ASweepLeavesOutADesignThatFailsInTheVerification) {
+  expect_the_next_is_the_best("sweep");
+}
+
+TEST_F(RunFailures, ASearchLeavesOutADesignThatFailsInTheVerification) {
+  expect_the_next_is_the_best("optimize");
+  // How far its variables may move, too, is that of the design that is the best now.
+  const Json ranges = summary()["indistinguishable"];
+  ASSERT_FALSE(ranges.empty());
+  std::vector<double> planes = summary()["best"]["planes_m"];
+  EXPECT_NEAR(ranges["z_far"]["best"].get<double>(), *std::ranges::max_element(planes), 1e-6);
+}
+
+TEST_F(RunFailures, ATradeLeavesOutADesignThatFailsInTheVerification) {
+  const Arguments small{"--trade.budget", "16", "--trade.population", "8"};
+  done("trade", "run", small);
+  const Json before = summary()["front"];
+  ASSERT_GE(before.size(), 2u);
+  let_fail(before[0]);
+  const ProgramRun resumed = run({"trade", "--resume", "run"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.errors;
+  EXPECT_EQ(summary()["front"].size(), before.size() - 1);
+  EXPECT_EQ(summary()["interrupted"], false);
+}
+
+TEST_F(RunFailures, WithoutADesignThatIsVerifiedARunSaysHowToKeepWhatItHas) {
+  done("sweep", "run");
+  const Json ranking = summary()["ranking"];
+  for (const Json& design : ranking) let_fail(design);
+  const ProgramRun resumed = run({"sweep", "--resume", "run"});
+  EXPECT_EQ(resumed.exit_code, 1);
+  EXPECT_THAT(resumed.errors,
+              AllOf(HasSubstr("nlcwfs: failed: a design failed on the fresh screens: the light "
+                              "went out; with --config run/config.cfg --reuse run a new run")));
+  // It does: of the three it tries each again, of the others none.
+  const ProgramRun again =
+      run({"sweep", "--config", "run/config.cfg", "--reuse", "run", "--output", "again"});
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(Json::parse(contents("again/summary.json"))["ranking"].size(), 3u);
+}
+
+TEST_F(RunFailures, ASearchNeedsItsBaseline) {
+  done("optimize", "run");
+  let_fail(summary()["baseline"]);
+  const ProgramRun resumed = run({"optimize", "--resume", "run"});
+  EXPECT_EQ(resumed.exit_code, 1);
+  EXPECT_THAT(resumed.errors, HasSubstr("a design failed on the fresh screens"));
+}
+
+TEST_F(RunFailures, ARunIsOfOneProcess) {
+  done("sweep", "run");
+  std::filesystem::remove("run/summary.json");
+  const std::vector<std::string> files = names_in("run");
+  {
+    const FolderLock another_run("run");
+    const ProgramRun refused = run({"sweep", "--resume", "run"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.errors, HasSubstr("--resume = run: another run works in it"));
+    EXPECT_EQ(names_in("run"), files);
+  }
+  EXPECT_EQ(run({"sweep", "--resume", "run"}).exit_code, 0);
+}
+
+/// All trials of an archive as text, with what clocks measured: two simulations never have equal
+/// ones.
+std::vector<std::string> trials_of(const std::string& folder) {
+  sqlite3* database = nullptr;
+  EXPECT_EQ(sqlite3_open((folder + "/archive.sqlite").c_str(), &database), SQLITE_OK);
+  std::vector<std::string> rows;
+  const auto add = [](void* all, int, char** values, char**) {
+    static_cast<std::vector<std::string>*>(all)->emplace_back(values[0]);
+    return 0;
+  };
+  EXPECT_EQ(sqlite3_exec(database,
+                         "SELECT trial || design || ifnull(hex(performances), failure) FROM trials "
+                         "ORDER BY trial, design",
+                         add, &rows, nullptr),
+            SQLITE_OK);
+  sqlite3_close(database);
+  return rows;
+}
+
+TEST_F(RunFailures, AnotherRunsTrialsAreTakenOver) {
+  done("sweep", "first");
+  const std::vector<std::string> trials = trials_of("first");
+  ASSERT_EQ(trials.size(), 4u + 3u);
+  // Another objective is another study of the same trials.
+  done("sweep", "second", {"--objective.loop_weight", "0.3", "--reuse", "first"});
+  EXPECT_EQ(trials_of("second"), trials);
+  done("sweep", "alone");
+  EXPECT_NE(trials_of("alone"), trials);
+}
+
+}  // namespace
+}  // namespace nlcwfs
