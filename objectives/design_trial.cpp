@@ -71,7 +71,9 @@ TriedDesign DesignTrial::run(const SensorDesign& design,
   } catch (const InputError&) {
     throw;  // it was never tried
   } catch (const std::exception& error) {
-    memory_->keep(identity_, text, {.performances = {}, .failure = error.what()});
+    if (keeps_failures) {
+      memory_->keep(identity_, text, {.performances = {}, .failure = error.what()});
+    }
     throw;
   }
   if (tried.costs.size() > known_screens) {

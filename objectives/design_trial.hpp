@@ -47,7 +47,7 @@ class DesignTrial {
   DesignTrial(std::vector<Condition> conditions, DesignCost cost);
 
   /// From now on no screen of a design is simulated again that the memory knows, and what is
-  /// simulated is kept in it, failures too.
+  /// simulated is kept in it, failures too unless keeps_failures is false.
   void remember_in(std::shared_ptr<TrialMemory> memory);
 
   /// From now on screens are simulated by the runner, if it is one.
@@ -100,6 +100,10 @@ class DesignTrial {
 
   /// What another process can make the same trial from, see trial_from_spec; empty where none can.
   std::string spec;
+
+  /// Whether a failure is met again by a run that goes on, as a search must, which goes its way by
+  /// what it has met. Otherwise such a run tries again.
+  bool keeps_failures = true;
 
  private:
   /// Whether a trial of the design can have left these; anything else is not used.

@@ -38,6 +38,9 @@ std::string text_at(sqlite3_stmt* statement, int column) {
 /// Of the tables, as the file's user_version: 0 had no trials.
 constexpr int current_layout = 1;
 
+/// After a commit the journal's end is on disk too: a power cut takes back nothing that was told.
+constexpr const char* write_through = "PRAGMA synchronous = EXTRA";
+
 /// Of the table `evaluations` in every layout.
 constexpr std::string_view columns = "id,stage,key,design,cost,failure,seconds,performance";
 
@@ -86,8 +89,6 @@ Archive::Archive(const std::filesystem::path& path, int flags) : path_(path) {
       sqlite3_open_v2(std::filesystem::absolute(path).c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (status != SQLITE_OK) fail("open");
-  // The journal's end is in the folder on disk too: a power cut takes back nothing that was told.
-  execute("PRAGMA synchronous = EXTRA");
   // Another program may read it meanwhile.
   constexpr int patience_ms = 60'000;
   sqlite3_busy_timeout(database, patience_ms);
@@ -95,6 +96,7 @@ Archive::Archive(const std::filesystem::path& path, int flags) : path_(path) {
 
 Archive::Archive(const std::filesystem::path& path, std::string_view command)
     : Archive(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE) {
+  execute(write_through);
   execute(
       "BEGIN;"
       "CREATE TABLE run (command TEXT NOT NULL, seconds REAL NOT NULL);"
@@ -136,6 +138,7 @@ Archive Archive::reopened(const std::filesystem::path& path) {
   const int layout = archive.layout();
   if (layout > current_layout) refuse("the archive of a newer version of nlcwfs");
   if (text_at(table.get(), 0) != columns) refuse(no_archive);
+  archive.execute(write_through);
   if (layout > 0) {
     const Statement run = prepared(archive.database_.get(), "SELECT seconds FROM run");
     if (!run || sqlite3_step(run.get()) != SQLITE_ROW) archive.fail("read");
@@ -181,7 +184,7 @@ void Archive::in_transaction(const std::function<void()>& write) {
   try {
     write();
     execute("COMMIT");
-  } catch (const std::runtime_error&) {
+  } catch (...) {
     // Without what its own failure would say, which is none where SQLite has done it.
     sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
     throw;

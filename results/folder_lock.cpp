@@ -13,6 +13,8 @@ namespace nlcwfs {
 // lock where the archive is closed once more. Not of processes that this one starts.
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : file_(open((folder / "config.cfg").c_str(), O_RDWR | O_CLOEXEC)) {
+  // One that is made read-only can be locked where it is no network's.
+  if (file_ < 0) file_ = open((folder / "config.cfg").c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(file_);
   throw InputError("--resume", folder.string(),

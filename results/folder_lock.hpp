@@ -5,7 +5,8 @@
 namespace nlcwfs {
 
 /// One process works in a run's folder, as long as this lives; the system frees the folder of a
-/// process that is killed. A file system without locks has none.
+/// process that is killed (that of a machine which dies, where a network's file system does). A
+/// file system without locks has none.
 class FolderLock {
  public:
   /// @param folder  that has a config.cfg

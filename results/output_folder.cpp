@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
-#include <set>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -44,6 +44,10 @@ bool sync_to_disk(const std::filesystem::path& path) {
   close(file);
   errno = error;
   return result == 0;
+}
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path) {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& requested) {
@@ -88,18 +92,20 @@ void OutputFolder::remove_results() const {
 }
 
 bool is_result(const std::filesystem::path& name) {
-  static const std::set<std::string, std::less<>> stems{
-      "best",        "claims", "convergence", "design",         "front",          "knee",
-      "law",         "loops",  "numerics",    "report",         "screens",        "search",
-      "summary",     "sweep",  "sensitivity", "typical-images", "typical-phases", "worst-images",
-      "worst-phases"};
-  static const std::set<std::string, std::less<>> endings{".cfg",  ".csv", ".fits", ".html",
-                                                          ".json", ".md",  ".png",  ".svg"};
-  if (name.extension() == ".part") return true;
-  const std::string stem = name.stem().string();
-  return endings.contains(name.extension().string()) &&
-         (stems.contains(stem) || stem.starts_with("map-") || stem.starts_with("figure-") ||
-          stem.starts_with("response"));
+  static const std::regex names(
+      "(summary|law)\\.json|report\\.(html|md)|(best|knee)\\.cfg"
+      "|(claims|front|law|loops|numerics|screens|search|sensitivity|sweep)\\.csv"
+      "|(design|front|loops|search|sensitivity|(typical|worst)-(images|phases))\\.(svg|png)"
+      "|(typical|worst)-(images|phases)\\.fits"
+      "|(map|figure|response)-.*\\.(csv|fits|svg|png)|response\\.(csv|svg|png)"
+      "|.*\\.part");
+  return std::regex_match(name.string(), names);
+}
+
+void OutputFolder::sync() const {
+  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+    if (entry.is_regular_file() && !sync_to_disk(entry.path())) fail_to_write(entry.path());
+  }
 }
 
 void OutputFolder::write(std::string_view name, std::string_view text) const {
@@ -111,10 +117,7 @@ void OutputFolder::write(std::string_view name, std::string_view text) const {
   stream << text;
   stream.close();
   // Before the name is there: a power cut leaves no file of it that is empty or cut.
-  if (!stream || !sync_to_disk(partial)) {
-    throw std::runtime_error(
-        fmt::format("cannot write {}: {}", partial.string(), std::strerror(errno)));
-  }
+  if (!stream || !sync_to_disk(partial)) fail_to_write(partial);
   std::filesystem::rename(partial, target);
   sync_to_disk(path_);  // where the file system can
 }

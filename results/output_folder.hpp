@@ -36,6 +36,10 @@ class OutputFolder {
   /// @throws std::runtime_error with path and cause
   void remove_results() const;
 
+  /// Waits until all files in it are on disk.
+  /// @throws std::runtime_error with path and cause
+  void sync() const;
+
   /// Writes a text file, under another name until it is complete. It is on disk when the function
   /// returns.
   /// @throws std::runtime_error with path and cause

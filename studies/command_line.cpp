@@ -212,7 +212,7 @@ Configuration resumed_configuration(const CommandLine& command_line,
       !std::filesystem::is_regular_file(folder / "archive.sqlite")) {
     throw InputError("--resume", shown,
                      "has no config.cfg and archive.sqlite; name the folder of an interrupted run, "
-                     "or begin anew one that was ended before it had them");
+                     "or remove one that was ended before it had them");
   }
   if (!configuring.empty()) {
     throw InputError(

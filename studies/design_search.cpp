@@ -8,12 +8,10 @@
 #include "studies/search_log.hpp"
 #include "studies/settings.hpp"
 #include "studies/stopwatch.hpp"
-#include "studies/text.hpp"
 
 #include <algorithm>
 #include <exception>
 #include <optional>
-#include <spdlog/spdlog.h>
 #include <stdexcept>
 #include <stop_token>
 #include <utility>
@@ -225,7 +223,7 @@ void DesignSearch::verify(Archive& archive, const Progress* whole,
                                           screens, verification.screen_count());
   } else if (candidates.size() + failures < count) {
     result.interrupted_when =
-        fmt::format("{} of {} designs were verified", candidates.size() + failures, count);
+        fmt::format("{} of {} designs were verified", candidates.size(), count - failures);
   }
   result.ranking = ranked(std::move(candidates));
   result.gain = improvement(result.best(), result.baseline);
@@ -246,8 +244,8 @@ void DesignSearch::scan_ranges(const Progress* whole, DesignSearchResult& result
   } catch (const TrialMemoryFailed&) {
     throw;  // no design is to blame
   } catch (const std::exception& error) {
-    spdlog::warn("how far each variable may move is not known, as the best design failed: {}",
-                 without_controls(error.what()));
+    result.interrupted_when = fmt::format(
+        "the best design failed in the scan of how far its variables may move: {}", error.what());
     return;
   }
   result.ranges = std::move(scanned.ranges);

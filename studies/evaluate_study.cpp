@@ -20,6 +20,7 @@ void run_evaluate(const CommandLine& command_line) {
   std::vector<std::string> notes;
   DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
   const SensorDesign design = trial.checked(design_of(configuration));
+  trial.keeps_failures = false;
   RunRecord record(command_line);
   record.adopt(trial);
 

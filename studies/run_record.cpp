@@ -60,7 +60,9 @@ void RunRecord::note_interrupted(const std::string& what) {
 }
 
 void RunRecord::write_summary(const nlohmann::ordered_json& results) {
-  archive_.commit();  // before the run counts as complete
+  // Before the run counts as complete.
+  archive_.commit();
+  folder_.sync();
   nlohmann::ordered_json config;
   for (const ConfigurationKey& key : configuration_keys()) {
     const Configuration& configuration = command_line_.configuration;

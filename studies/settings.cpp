@@ -588,12 +588,14 @@ DesignTrial trial_on_fresh_screens(const Configuration& configuration, Simulatio
   const auto seeings = double(seeings_of(configuration, telescope).size());
   require_memory(key, std::to_string(count), seeings * count, samples);
   options.noise_seed = configuration.seed("verify.seed");
-  return {conditions_of(configuration, telescope, options,
-                        [&](const Seeing& seeing) {
-                          return simulated_screens(configuration, telescope, seeing, samples, count,
-                                                   "verify.seed");
-                        }),
-          cost_of(configuration, pixels_vary)};
+  DesignTrial trial(conditions_of(configuration, telescope, options,
+                                  [&](const Seeing& seeing) {
+                                    return simulated_screens(configuration, telescope, seeing,
+                                                             samples, count, "verify.seed");
+                                  }),
+                    cost_of(configuration, pixels_vary));
+  trial.keeps_failures = false;
+  return trial;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "objectives/design_space.hpp"
 #include "results/design_summary.hpp"
+#include "studies/commands.hpp"
 #include "studies/design_text.hpp"
 #include "studies/evaluation_log.hpp"
 #include "studies/stopwatch.hpp"
@@ -33,6 +34,13 @@ std::string_view word_for(Verdict verdict) {
   return "worse";
 }
 
+/// "-115.4 km, 115.4 km"
+std::string planes_text(const SensorDesign& design) {
+  std::vector<std::string> distances;
+  for (const double z : design.planes) distances.push_back(format_length(z));
+  return fmt::format("{}", fmt::join(distances, ", "));
+}
+
 /// By how much it costs more than the best.
 MeanAndError cost_above_best(const RankedDesign& ranked) {
   const MeanAndError& gain = ranked.against_best.cost;
@@ -60,26 +68,31 @@ TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verif
       .seconds = 0.0,
       .performance = {},
       .key = design_key(design)};
+  TriedDesign tried;
   try {
-    TriedDesign tried = verification.run(design, {}, watch);
-    if (static_cast<int>(tried.costs.size()) < verification.screen_count()) return tried;
-    evaluation.cost = mean_and_standard_error(tried.costs).mean;
-    evaluation.performance = to_json(pooled(tried.performances)).dump();
-    evaluation.seconds = stopwatch.seconds();
-    archive_and_log(archive, evaluation);
-    return tried;
+    tried = verification.run(design, {}, watch);
   } catch (const TrialMemoryFailed&) {
     throw;  // no design is to blame
   } catch (const std::exception& error) {
     evaluation.failure = error.what();
   }
   evaluation.seconds = stopwatch.seconds();
+  if (evaluation.failure.empty()) {
+    if (static_cast<int>(tried.costs.size()) < verification.screen_count()) return tried;
+    evaluation.cost = mean_and_standard_error(tried.costs).mean;
+    evaluation.performance = to_json(pooled(tried.performances)).dump();
+  }
   archive_and_log(archive, evaluation);
-  const std::string folder = archive.path().parent_path().string();
-  throw VerificationFailed(fmt::format(
-      "a design failed on the fresh screens: {}; with --config {}/config.cfg --reuse {} a new run "
-      "takes over what is simulated, and tries again what failed",
-      evaluation.failure, folder, folder));
+  if (evaluation.failure.empty()) return tried;
+  const std::string command = archive.command();
+  const std::string how_to_go_on = command_of(command).resumable
+                                       ? fmt::format("; to try it again: nlcwfs {} --resume {}",
+                                                     command, archive.path().parent_path().string())
+                                       : "";
+  throw VerificationFailed(
+      fmt::format("the design of the planes {} failed on the fresh screens: {}",
+                  planes_text(design), evaluation.failure),
+      how_to_go_on);
 }
 
 std::optional<TriedDesign> verified_candidate(const SensorDesign& design,
@@ -89,7 +102,7 @@ std::optional<TriedDesign> verified_candidate(const SensorDesign& design,
     return verified_design(design, verification, archive, watch);
   } catch (const VerificationFailed& failure) {
     if (is_last_hope) throw;
-    spdlog::warn("{}", without_controls(failure.what()));
+    spdlog::warn("{}; it is left out", without_controls(failure.what_failed()));
     return std::nullopt;
   }
 }
@@ -123,9 +136,7 @@ std::string ranking_text(const std::vector<RankedDesign>& ranking, std::string_v
   std::vector<std::string> planes;
   std::size_t width = 0;
   for (const RankedDesign& design : ranking) {
-    std::vector<std::string> distances;
-    for (const double z : design.verified.design.planes) distances.push_back(format_length(z));
-    planes.push_back(fmt::format("{}", fmt::join(distances, ", ")));
+    planes.push_back(planes_text(design.verified.design));
     width = std::max(width, planes.back().size());
   }
   std::string text =

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -21,10 +22,18 @@ namespace nlcwfs {
 Progress verification_progress(const DesignTrial& verification, std::size_t designs,
                                std::string then = {}, const Progress* whole = nullptr);
 
-/// Thrown where a design fails on the fresh screens; says why, and how to go on without a failure.
+/// Thrown where a design fails on the fresh screens; says how to try it again.
 class VerificationFailed : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// @param what_failed   the design, and why
+  /// @param how_to_go_on  may be empty
+  VerificationFailed(std::string what_failed, const std::string& how_to_go_on)
+      : std::runtime_error(what_failed + how_to_go_on), what_failed_(std::move(what_failed)) {}
+
+  const std::string& what_failed() const { return what_failed_; }
+
+ private:
+  std::string what_failed_;
 };
 
 /// A design on fresh screens, archived where the watch did not end it early.

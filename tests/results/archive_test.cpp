@@ -189,6 +189,19 @@ std::string failure_with(const char* sql) {
   return "";
 }
 
+TEST_F(ArchiveTest, IsOpenedWhileAnotherProgramWrites) {
+  (void)Archive("archive.sqlite", "sweep");
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open("archive.sqlite", &database), SQLITE_OK);
+  const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> close(database, sqlite3_close);
+  ASSERT_EQ(sqlite3_exec(database, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
+  const std::jthread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(sqlite3_exec(database, "COMMIT", nullptr, nullptr, nullptr), SQLITE_OK);
+  });
+  EXPECT_EQ(Archive::reopened("archive.sqlite").command(), "sweep");
+}
+
 TEST_F(ArchiveTest, OpensNoneThatComputesItsRows) {
   EXPECT_EQ(failure_with("CREATE INDEX costs ON evaluations (cost)"), "");
   for (const char* sql :

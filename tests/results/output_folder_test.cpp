@@ -152,13 +152,13 @@ TEST_F(OutputFolderTest, RemovesResultsAndLinksOfTheirNamesAlone) {
                            "design.svg", "figure-3-map.png", "response-map-wfe.svg"}) {
     std::ofstream(std::string("mine/") + name) << "";
   }
-  const std::vector<std::string> users{"mask.fits", "my.cfg", "notes.txt", "search.txt",
-                                       "search-2.csv"};
+  const std::vector<std::string> users{"mask.fits",    "my.cfg",       "notes.txt", "search.txt",
+                                       "search-2.csv", "screens.fits", "design.cfg"};
   for (const std::string& name : users) std::ofstream("mine/" + name) << "";
   folder.remove_results();
   EXPECT_THAT(names_in("mine"),
-              ElementsAre("archive.sqlite", "config.cfg", "mask.fits", "my.cfg", "notes.txt",
-                          "search-2.csv", "search.csv", "search.txt"));
+              ElementsAre("archive.sqlite", "config.cfg", "design.cfg", "mask.fits", "my.cfg",
+                          "notes.txt", "screens.fits", "search-2.csv", "search.csv", "search.txt"));
   EXPECT_EQ(contents("target"), "mine");
 }
 

@@ -9,6 +9,7 @@
 #include "tests/studies/program.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <gmock/gmock.h>
 #include <sqlite3.h>
@@ -17,6 +18,7 @@ namespace nlcwfs {
 namespace {
 
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
@@ -31,13 +33,17 @@ class RunFailures : public Program {
 
   static Json summary() { return Json::parse(contents("run/summary.json")); }
 
-  /// From now on the archive knows that the design failed on the fresh screens, and the run has not
-  /// ended.
-  static void let_fail(const Json& design) {
+  static Configuration configuration() {
     Configuration configuration;
     configuration.read_file("run/config.cfg");
+    return configuration;
+  }
+
+  /// From now on the archive knows that the design failed in a trial, and the run has not ended.
+  static void let_fail(const Json& design,
+                       const DesignTrial& trial = verification_trial_of(configuration())) {
     Archive::reopened("run/archive.sqlite")
-        .keep(verification_trial_of(configuration).identity(), exact_text(design_from_json(design)),
+        .keep(trial.identity(), exact_text(design_from_json(design)),
               {.performances = {}, .failure = "the light went out"});
     std::filesystem::remove("run/summary.json");
   }
@@ -59,8 +65,9 @@ class RunFailures : public Program {
     const ProgramRun resumed = run({command, "--resume", "run"});
     ASSERT_EQ(resumed.exit_code, 0) << resumed.errors;
     EXPECT_THAT(resumed.errors,
-                HasSubstr("a design failed on the fresh screens: the light went out; with --config "
-                          "run/config.cfg --reuse run a new run takes over"));
+                AllOf(HasSubstr("the design of the planes "),
+                      EndsWith(" km failed on the fresh screens: the light went out; it is left "
+                               "out\n")));
     const Json after = summary()["ranking"];
     ASSERT_EQ(after.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -71,6 +78,25 @@ class RunFailures : public Program {
     EXPECT_EQ(summary()["interrupted"], false);
   }
 };
+
+/// All trials of an archive as text, with what clocks measured: two simulations never have equal
+/// ones.
+std::vector<std::string> trials_of(const std::string& folder) {
+  sqlite3* database = nullptr;
+  EXPECT_EQ(sqlite3_open((folder + "/archive.sqlite").c_str(), &database), SQLITE_OK);
+  std::vector<std::string> rows;
+  const auto add = [](void* all, int, char** values, char**) {
+    static_cast<std::vector<std::string>*>(all)->emplace_back(values[0]);
+    return 0;
+  };
+  EXPECT_EQ(sqlite3_exec(database,
+                         "SELECT trial || design || ifnull(hex(performances), failure) FROM trials "
+                         "ORDER BY trial, design",
+                         add, &rows, nullptr),
+            SQLITE_OK);
+  sqlite3_close(database);
+  return rows;
+}
 
 TEST_F(RunFailures, ASweepLeavesOutADesignThatFailsInTheVerification) {
   expect_the_next_is_the_best("sweep");
@@ -104,13 +130,42 @@ TEST_F(RunFailures, WithoutADesignThatIsVerifiedARunSaysHowToKeepWhatItHas) {
   const ProgramRun resumed = run({"sweep", "--resume", "run"});
   EXPECT_EQ(resumed.exit_code, 1);
   EXPECT_THAT(resumed.errors,
-              AllOf(HasSubstr("nlcwfs: failed: a design failed on the fresh screens: the light "
-                              "went out; with --config run/config.cfg --reuse run a new run")));
-  // It does: of the three it tries each again, of the others none.
-  const ProgramRun again =
-      run({"sweep", "--config", "run/config.cfg", "--reuse", "run", "--output", "again"});
-  EXPECT_EQ(again.exit_code, 0) << again.errors;
+              AllOf(HasSubstr("nlcwfs: failed: the design of the planes "),
+                    EndsWith(" km failed on the fresh screens: the light went out; to try it "
+                             "again: nlcwfs sweep --resume run\n")));
+  // A new run tries these again, and takes over the others.
+  done("sweep", "again", {"--reuse", "run"});
+  const std::vector<std::string> trials = trials_of("run");
+  const std::vector<std::string> again = trials_of("again");
+  std::vector<std::string> taken_over;
+  std::ranges::set_intersection(trials, again, std::back_inserter(taken_over));
+  EXPECT_EQ(taken_over.size(), 4u);
+  EXPECT_EQ(again.size(), 4u + 3u);
   EXPECT_EQ(Json::parse(contents("again/summary.json"))["ranking"].size(), 3u);
+}
+
+TEST_F(RunFailures, ASearchWhoseScanFailsCanGoOnWithIt) {
+  done("optimize", "run");
+  let_fail(summary()["best"], fresh_trial_of(configuration(), "search.precision"));
+  const ProgramRun resumed = run({"optimize", "--resume", "run"});
+  EXPECT_EQ(resumed.exit_code, 3) << resumed.errors;
+  EXPECT_THAT(resumed.output,
+              AllOf(HasSubstr("Interrupted when the best design failed in the scan of how far its "
+                              "variables may move: the light went out: "),
+                    HasSubstr("Go on with: nlcwfs optimize --resume run\n")));
+  EXPECT_EQ(summary()["interrupted"], true);
+}
+
+TEST_F(RunFailures, WhatIsNoStepOfASearchIsTriedAgain) {
+  const ProgramRun failed = run(
+      {"evaluate", "--config", "tiny.cfg", "--output", "run", "--simulation.time_limit", "1us"});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.errors, HasSubstr("a wavefront took longer than simulation.time_limit"));
+  Configuration patient = configuration();
+  patient.set("simulation.time_limit", "1h", "here");
+  std::ofstream("run/config.cfg") << patient.dump();
+  const ProgramRun resumed = run({"evaluate", "--resume", "run"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
 }
 
 TEST_F(RunFailures, ASearchNeedsItsBaseline) {
@@ -118,7 +173,7 @@ TEST_F(RunFailures, ASearchNeedsItsBaseline) {
   let_fail(summary()["baseline"]);
   const ProgramRun resumed = run({"optimize", "--resume", "run"});
   EXPECT_EQ(resumed.exit_code, 1);
-  EXPECT_THAT(resumed.errors, HasSubstr("a design failed on the fresh screens"));
+  EXPECT_THAT(resumed.errors, HasSubstr("failed on the fresh screens"));
 }
 
 TEST_F(RunFailures, ARunIsOfOneProcess) {
@@ -133,25 +188,6 @@ TEST_F(RunFailures, ARunIsOfOneProcess) {
     EXPECT_EQ(names_in("run"), files);
   }
   EXPECT_EQ(run({"sweep", "--resume", "run"}).exit_code, 0);
-}
-
-/// All trials of an archive as text, with what clocks measured: two simulations never have equal
-/// ones.
-std::vector<std::string> trials_of(const std::string& folder) {
-  sqlite3* database = nullptr;
-  EXPECT_EQ(sqlite3_open((folder + "/archive.sqlite").c_str(), &database), SQLITE_OK);
-  std::vector<std::string> rows;
-  const auto add = [](void* all, int, char** values, char**) {
-    static_cast<std::vector<std::string>*>(all)->emplace_back(values[0]);
-    return 0;
-  };
-  EXPECT_EQ(sqlite3_exec(database,
-                         "SELECT trial || design || ifnull(hex(performances), failure) FROM trials "
-                         "ORDER BY trial, design",
-                         add, &rows, nullptr),
-            SQLITE_OK);
-  sqlite3_close(database);
-  return rows;
 }
 
 TEST_F(RunFailures, AnotherRunsTrialsAreTakenOver) {
