@@ -89,7 +89,7 @@ Archive::Archive(const std::filesystem::path& path, int flags) : path_(path) {
       sqlite3_open_v2(std::filesystem::absolute(path).c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (status != SQLITE_OK) fail("open");
-  // Another program may read it meanwhile.
+  // Another program may read it meanwhile, or write to it.
   constexpr int patience_ms = 60'000;
   sqlite3_busy_timeout(database, patience_ms);
 }

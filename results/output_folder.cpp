@@ -34,11 +34,12 @@ bool make_folder(const std::filesystem::path& folder) {
   return made;
 }
 
-/// Waits until what was written is on disk: a file's text, or the names in a folder.
+/// Waits until what was written is on disk: a file's text, or the names in a folder. Nothing of a
+/// run's is what it cannot open.
 /// @return false where it cannot be
 bool sync_to_disk(const std::filesystem::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
+  if (file < 0) return true;
   const int result = fsync(file);
   const int error = errno;
   close(file);
@@ -98,13 +99,18 @@ bool is_result(const std::filesystem::path& name) {
       "|(design|front|loops|search|sensitivity|(typical|worst)-(images|phases))\\.(svg|png)"
       "|(typical|worst)-(images|phases)\\.fits"
       "|(map|figure|response)-.*\\.(csv|fits|svg|png)|response\\.(csv|svg|png)"
-      "|.*\\.part");
-  return std::regex_match(name.string(), names);
+      "|.*\\.(data|gnuplot|log)\\.part");
+  const auto is_named = [&](const std::filesystem::path& file) {
+    return std::regex_match(file.string(), names);
+  };
+  return is_named(name) || (name.extension() == ".part" && is_named(name.stem()));
 }
 
 void OutputFolder::sync() const {
   for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-    if (entry.is_regular_file() && !sync_to_disk(entry.path())) fail_to_write(entry.path());
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(entry.symlink_status(ignored))) continue;
+    if (!sync_to_disk(entry.path())) fail_to_write(entry.path());
   }
 }
 

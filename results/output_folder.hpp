@@ -51,8 +51,8 @@ class OutputFolder {
   std::filesystem::path path_;
 };
 
-/// Whether a run that can be resumed makes files of this name again: all of its files but
-/// config.cfg and archive.sqlite have such names.
+/// Whether a run that can be resumed makes files of this name again, or has left an unfinished one:
+/// all of its files but config.cfg and archive.sqlite have such names.
 bool is_result(const std::filesystem::path& name);
 
 }  // namespace nlcwfs

@@ -8,6 +8,7 @@
 #include "studies/search_log.hpp"
 #include "studies/settings.hpp"
 #include "studies/stopwatch.hpp"
+#include "studies/text.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -244,8 +245,9 @@ void DesignSearch::scan_ranges(const Progress* whole, DesignSearchResult& result
   } catch (const TrialMemoryFailed&) {
     throw;  // no design is to blame
   } catch (const std::exception& error) {
-    result.interrupted_when = fmt::format(
-        "the best design failed in the scan of how far its variables may move: {}", error.what());
+    result.interrupted_when =
+        fmt::format("the best design failed in the scan of how far its variables may move: {}",
+                    without_controls(error.what()));
     return;
   }
   result.ranges = std::move(scanned.ranges);

@@ -166,13 +166,17 @@ void run_law(const CommandLine& command_line) {
 
   std::vector<ScalingDatum> data;
   Json searches = Json::array();
+  std::string ended_when;
   {
     Progress progress("law", double(ratios.size()), "seeings");
     for (const double ratio : ratios) {
       DesignSearch task(at_seeing(configuration, order, ratio));
       for (DesignTrial* trial : task.trials()) record.adopt(*trial);
       const DesignSearchResult result = task.run(record.archive(), &progress);
-      if (!result.interrupted_when.empty()) break;
+      if (!result.interrupted_when.empty()) {
+        ended_when = fmt::format("; at D/r0 = {:g} {}", ratio, result.interrupted_when);
+        break;
+      }
       data.push_back(datum_of(task, result));
       record.folder().write("law.csv", data_csv(data));
       searches.push_back(to_json(result.best(), task.verification));
@@ -187,12 +191,11 @@ void run_law(const CommandLine& command_line) {
   if (data.size() < ratios.size()) {
     const std::string done = fmt::format("{} of {} seeings were done", data.size(), ratios.size());
     if (data.size() < least_seeings) {
-      throw RunInterrupted(fmt::format(
-          "{}, and a law needs {}{}", done, least_seeings,
-          data.empty() ? ""
-                       : fmt::format("; {} has them", record.folder().file("law.csv").string())));
+      throw RunInterrupted(
+          fmt::format("{}, and a law needs {}{}; go on with: nlcwfs law --resume {}", done,
+                      least_seeings, ended_when, record.folder().path().string()));
     }
-    record.note_interrupted(done);
+    record.note_interrupted(done + ended_when);
   }
   const LawFile file{law_conditions(at_seeing(configuration, order, ratios.front())), data,
                      fit_scaling_law(data, order)};

@@ -158,7 +158,8 @@ std::string manual_page() {
                "Bad input: one line on standard error names the key, the value, what is "
                "allowed and the fix.") +
          entry("3", "",
-               "Interrupted with Ctrl-C or SIGTERM: what was done until then is in the folder.") +
+               "Interrupted with Ctrl-C or SIGTERM, or where the best design failed in the scan of "
+               "how far its variables may move: what was done until then is in the folder.") +
          examples_text();
 }
 

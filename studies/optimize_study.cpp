@@ -87,7 +87,7 @@ std::string ranges_text(const DesignSearch& task, const DesignSearchResult& resu
   if (result.ranges.empty()) {
     return result.interrupted_when.empty()
                ? ""
-               : "Interrupted: how far each variable may move was not tried.\n\n";
+               : "Interrupted: how far each variable may move is not known.\n\n";
   }
   std::string text =
       fmt::format("Moved alone, each variable is as good on {} fresh screens (Student's t, 5 %):\n",

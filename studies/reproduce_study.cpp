@@ -10,6 +10,7 @@
 #include "studies/settings.hpp"
 #include "studies/stopwatch.hpp"
 #include "studies/studies.hpp"
+#include "studies/verified_ranking.hpp"
 
 #include <functional>
 #include <map>
@@ -94,6 +95,9 @@ void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::pat
       throw;
     } catch (const RunInterrupted&) {
       throw RunInterrupted(fmt::format("in {}; {}", place, how_to_go_on));
+    } catch (const VerificationFailed& failure) {
+      throw std::runtime_error(
+          fmt::format("{}: {}; {}", runs[i].folder, failure.what_failed(), how_to_go_on));
     } catch (const std::exception& error) {
       throw std::runtime_error(
           fmt::format("{}: {}; {}", runs[i].folder, error.what(), how_to_go_on));

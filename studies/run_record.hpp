@@ -37,7 +37,8 @@ class RunRecord {
   /// From now on the trial remembers in the archive, and simulates on the ranks of the run.
   void adopt(DesignTrial& trial) const;
 
-  /// Notes that an interrupt has left the run's results with less than was asked for.
+  /// Notes that an interrupt, or a failure that --resume tries again, has left the run's results
+  /// with less than was asked for.
   /// @param what  for people: "5 of 16 screens are done"
   /// @throws RunInterrupted at once in a silent part of another run, which does such a part anew
   void note_interrupted(const std::string& what);

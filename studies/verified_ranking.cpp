@@ -68,7 +68,7 @@ TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verif
       .seconds = 0.0,
       .performance = {},
       .key = design_key(design)};
-  TriedDesign tried;
+  std::optional<TriedDesign> tried;
   try {
     tried = verification.run(design, {}, watch);
   } catch (const TrialMemoryFailed&) {
@@ -77,13 +77,13 @@ TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verif
     evaluation.failure = error.what();
   }
   evaluation.seconds = stopwatch.seconds();
-  if (evaluation.failure.empty()) {
-    if (static_cast<int>(tried.costs.size()) < verification.screen_count()) return tried;
-    evaluation.cost = mean_and_standard_error(tried.costs).mean;
-    evaluation.performance = to_json(pooled(tried.performances)).dump();
+  if (tried) {
+    if (static_cast<int>(tried->costs.size()) < verification.screen_count()) return *tried;
+    evaluation.cost = mean_and_standard_error(tried->costs).mean;
+    evaluation.performance = to_json(pooled(tried->performances)).dump();
   }
   archive_and_log(archive, evaluation);
-  if (evaluation.failure.empty()) return tried;
+  if (tried) return *tried;
   const std::string command = archive.command();
   const std::string how_to_go_on = command_of(command).resumable
                                        ? fmt::format("; to try it again: nlcwfs {} --resume {}",

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <new>
 #include <numbers>
 #include <set>
 #include <span>
@@ -331,6 +332,21 @@ TEST_F(DesignTrialTest, RemembersFailuresButNotBadInput) {
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "no light");
   }
+}
+
+TEST_F(DesignTrialTest, KeepsThatMemoryWasShortOnlyWhereItsFailuresAreKept) {
+  const auto no_memory = [](std::span<const double>) -> bool { throw std::bad_alloc(); };
+  const auto memory = std::make_shared<MapMemory>();
+  DesignTrial verification = trial(8);
+  verification.remember_in(memory);
+  verification.keeps_failures = false;
+  EXPECT_THROW(verification.run(design_, no_memory), std::bad_alloc);
+  EXPECT_EQ(memory->kept, 0);
+  DesignTrial search = trial(8);
+  search.remember_in(memory);
+  EXPECT_THROW(search.run(design_, no_memory), std::bad_alloc);
+  ASSERT_EQ(memory->kept, 1);
+  EXPECT_EQ(memory->trials.begin()->second.failure, "std::bad_alloc");
 }
 
 TEST_F(DesignTrialTest, BlamesNoDesignForAMemoryThatFails) {

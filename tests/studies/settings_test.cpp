@@ -325,6 +325,8 @@ TEST(Settings, TheVerificationsTruthIsFinerAndNoLongerMatched) {
   const DesignTrial verification = verification_trial_of(configuration);
   EXPECT_EQ(verification.conditions().front().simulation->truth_samples(), 32);
   EXPECT_EQ(verification.screen_count(), 2);
+  EXPECT_FALSE(verification.keeps_failures);
+  EXPECT_FALSE(fresh_trial_of(configuration, "search.precision").keeps_failures);
   // A matched simulation would widen the detector to the reconstruction's window.
   SensorDesign design = design_of(configuration);
   EXPECT_EQ(verification.checked(design).detector.window, design.detector.window);
