@@ -21,8 +21,10 @@ static_assert(std::atomic<bool>::is_always_lock_free, "or a signal handler may n
 /// What a signal handler may do to write; the line of progress that stands there is erased.
 void write_line(std::string_view text) {
   constexpr std::string_view erase_line = "\r\x1b[K";
-  if (is_terminal) (void)!::write(STDERR_FILENO, erase_line.data(), erase_line.size());
-  (void)!::write(STDERR_FILENO, text.data(), text.size());
+  // Nothing can be done where it fails.
+  [[maybe_unused]] ssize_t written = 0;
+  if (is_terminal) written = ::write(STDERR_FILENO, erase_line.data(), erase_line.size());
+  written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
 extern "C" void note_interrupt(int signal) {

@@ -39,7 +39,7 @@ std::vector<std::vector<std::string>> read_table(const std::string& path) {
   std::istringstream text(contents(path));
   for (std::string line; std::getline(text, line);) {
     rows.emplace_back();
-    std::istringstream cells(std::regex_replace(line, std::regex("\"[^\"]*\""), "quoted"));
+    std::istringstream cells(std::regex_replace(line, std::regex(R"("[^"]*")"), "quoted"));
     for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
   }
   return rows;

@@ -41,7 +41,8 @@ TEST(TimeLeft, IsSaneWhereThreadsFinishInBursts) {
   // quarter when a quarter is done; one burst more or less is not held against it.
   TimeLeft left(400.0);
   for (int done = 1; done <= 400; ++done) {
-    const double clock = 8.0 * ((done + 7) / 8) + 1e-3 * (done % 8);
+    const int burst = (done + 7) / 8;
+    const double clock = 8.0 * burst + 1e-3 * (done % 8);
     left.at(done, clock);
     if (done < 8) continue;
     const double truth = 400.0 - clock;

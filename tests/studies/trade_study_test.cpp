@@ -101,7 +101,7 @@ TEST_F(TradeStudy, MarksTheDesignsThatAnotherBettersOnTheFreshScreens) {
       return betters(other, design) && (means(other)[2] < means(design)[2]);
     });
     EXPECT_TRUE(!is_clear || bool(design["dominated"]));
-    dominated += bool(design["dominated"]);
+    dominated += bool(design["dominated"]) ? 1 : 0;
   }
   EXPECT_GT(dominated, 0) << "the test shows little";
 }
