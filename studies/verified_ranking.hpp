@@ -30,6 +30,7 @@ class VerificationFailed : public std::runtime_error {
   VerificationFailed(std::string what_failed, const std::string& how_to_go_on)
       : std::runtime_error(what_failed + how_to_go_on), what_failed_(std::move(what_failed)) {}
 
+  /// The design, and why it failed.
   const std::string& what_failed() const { return what_failed_; }
 
  private:

@@ -88,14 +88,14 @@ def pid_of(mpirun, rank):
 def test_same_results(root):
     for name, words in RUNS.items():
         expected = None
-        for ranks in (0, 1, 2, 3):
+        for ranks in (0, 1, 2, 3) if name == "sweep" else (0, 3):
             folder = root / f"{name}-{ranks}"
             code, output, errors = run(ranks, *words, *SETTINGS, "--output", folder)
             require(code == 0 and errors == "", f"{name} on {ranks} ranks: {code} {errors}")
             require(output.count("Results are in") == 1, f"{name} prints more than once")
             expected = expected or result(folder)
             require_same(result(folder), expected, f"{name} on {ranks} ranks")
-    print(", ".join(RUNS), "on 1, 2 and 3 ranks are as on one process")
+    print(", ".join(RUNS), "on several ranks are as on one process")
 
 
 def test_bad_input(root):

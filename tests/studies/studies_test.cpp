@@ -245,7 +245,7 @@ TEST_F(Studies, AnInterruptInTheCheapSearchLeavesACompleteResult) {
       {"optimize", "--config", "tiny.cfg", "--output", "run", "--search.cheap_budget", "1000000"},
       "timeout --foreground --preserve-status --signal INT 2 ");
   EXPECT_EQ(finished.exit_code, 3) << finished.errors;
-  EXPECT_THAT(finished.output, HasSubstr("how far each variable may move was not tried"));
+  EXPECT_THAT(finished.output, HasSubstr("how far each variable may move is not known"));
   const Json json = summary("run");
   EXPECT_EQ(json["termination"], "stop_requested");
   EXPECT_EQ(json["evaluations"], 1);
