@@ -53,7 +53,7 @@ class Interrupt : public Program {
     EXPECT_THAT(finished.errors, HasSubstr(notice));
     EXPECT_THAT(finished.output,
                 AllOf(HasSubstr("\nInterrupted when "), EndsWith("\nResults are in run.\n")));
-    const Json json = summary("run");
+    Json json = summary("run");
     EXPECT_EQ(json.at("interrupted"), true);
     return json;
   }

@@ -140,7 +140,7 @@ TEST(LawFile, IsRefusedWithTheNameOfTheField) {
 
 TEST(LawFile, IsRefusedWhereItIsNone) {
   for (const std::string text :
-       {"", "{", "nan", "[]", "{\"command\": \"law\"}", "{\"data\": 1e999}", "\x01\n\xFF"}) {
+       {"", "{", "nan", "[]", R"({"command": "law"})", R"({"data": 1e999})", "\x01\n\xFF"}) {
     EXPECT_THAT(
         message_of([&] { parse_law_file(text, "my\nlaw"); }),
         AllOf(StartsWith("advise.law = my?law: is no law file; give "), Not(HasSubstr("\n"))))

@@ -110,11 +110,11 @@ TEST_F(Report, RefusesWhatIsNoRunInOneLine) {
   std::filesystem::create_directory("run/summary.json");
   EXPECT_THAT(refusal("run"), HasSubstr("DIR = run: has no summary.json"));
   std::filesystem::remove("run/summary.json");
-  std::ofstream("run/summary.json") << "{\"command\": \"evaluate\"";
+  std::ofstream("run/summary.json") << R"({"command": "evaluate")";
   EXPECT_THAT(refusal("run"), HasSubstr("no JSON object"));
   std::ofstream("run/summary.json") << "[1, 2]";
   EXPECT_THAT(refusal("run"), HasSubstr("no JSON object"));
-  for (const char* command : {"\"bake\"", "17", "null", "\"report\\n\""}) {
+  for (const char* command : {R"("bake")", "17", "null", R"("report\n")"}) {
     std::ofstream("run/summary.json") << "{\"command\": " << command << "}";
     EXPECT_THAT(refusal("run"),
                 AllOf(HasSubstr("of the command"), HasSubstr("evaluate, export, law")));
