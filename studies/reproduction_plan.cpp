@@ -205,6 +205,34 @@ void add_responses(Plan& plan) {
   plan.add("response/photons", "response", base, {{"detector.photons", "1e6"}});
 }
 
+void add_figure_3(Plan& plan, Setup setup) {
+  for (const int ratio : map_ratios) add_four_plane_map(plan, setup, ratio);
+  add_four_planes(plan, setup);
+  add_design(plan, setup, "pairs-exchanged", {2, 3, 0, 1});
+}
+
+void add_figure_4(Plan& plan, Setup setup) {
+  add_four_plane_map(plan, setup, 4);
+  add_map(plan, setup, 4, "124", fmt::format("figure-4/{}-without-p3", to_string(setup)));
+  add_map(plan, setup, 4, "234", fmt::format("figure-4/{}-without-p1", to_string(setup)));
+  // One after the other, so that their times compare.
+  add_four_planes(plan, setup);
+  add_design(plan, setup, "without-p3", {0, 1, 3});
+  add_design(plan, setup, "without-p1", {1, 2, 3});
+}
+
+void add_numerics(Plan& plan, int screens) {
+  for (const NamedSettings& variant : numerical_variants(screens)) {
+    for (const NamedSettings& probe : numerical_probes()) {
+      auto settings = variant.settings;
+      settings.insert(settings.end(), probe.settings.begin(), probe.settings.end());
+      plan.add(fmt::format("numerics/{}/{}", variant.name, probe.name),
+               probe.name == "medium-band" ? "convergence" : "evaluate", plan.base(Setup::paper),
+               settings);
+    }
+  }
+}
+
 }  // namespace
 
 std::string_view to_string(Setup setup) { return setup == Setup::paper ? "paper" : "extended"; }
@@ -330,20 +358,8 @@ std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
   };
   Plan plan(configuration);
   for (const Setup setup : setups) {
-    if (wants("3")) {
-      for (const int ratio : map_ratios) add_four_plane_map(plan, setup, ratio);
-      add_four_planes(plan, setup);
-      add_design(plan, setup, "pairs-exchanged", {2, 3, 0, 1});
-    }
-    if (wants("4")) {
-      add_four_plane_map(plan, setup, 4);
-      add_map(plan, setup, 4, "124", fmt::format("figure-4/{}-without-p3", to_string(setup)));
-      add_map(plan, setup, 4, "234", fmt::format("figure-4/{}-without-p1", to_string(setup)));
-      // One after the other, so that their times compare.
-      add_four_planes(plan, setup);
-      add_design(plan, setup, "without-p3", {0, 1, 3});
-      add_design(plan, setup, "without-p1", {1, 2, 3});
-    }
+    if (wants("3")) add_figure_3(plan, setup);
+    if (wants("4")) add_figure_4(plan, setup);
     if (wants("5")) {
       add_fifth_plane(plan, setup);
       add_four_planes(plan, setup);
@@ -359,16 +375,7 @@ std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
     }
   }
   if (wants("response")) add_responses(plan);
-  for (const NamedSettings& variant : numerical_variants(configuration.integer("screens.count"))) {
-    if (!wants("numerics")) break;
-    for (const NamedSettings& probe : numerical_probes()) {
-      auto settings = variant.settings;
-      settings.insert(settings.end(), probe.settings.begin(), probe.settings.end());
-      plan.add(fmt::format("numerics/{}/{}", variant.name, probe.name),
-               probe.name == "medium-band" ? "convergence" : "evaluate", plan.base(Setup::paper),
-               settings);
-    }
-  }
+  if (wants("numerics")) add_numerics(plan, configuration.integer("screens.count"));
   return std::move(plan).runs();
 }
 

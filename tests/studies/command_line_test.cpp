@@ -245,7 +245,7 @@ TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
   const std::filesystem::path folder =
       std::filesystem::path(write_file("config.cfg", earlier.dump())).parent_path();
   std::filesystem::remove(folder / "archive.sqlite");  // of an earlier test
-  Archive(folder / "archive.sqlite", "sweep");
+  (void)Archive(folder / "archive.sqlite", "sweep");
   const std::string name = folder.string();
   EXPECT_THAT(parse_message({"trade", "--resume", name.c_str()}),
               HasSubstr(": is a run of sweep; name the folder of an interrupted trade"));

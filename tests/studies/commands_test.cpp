@@ -124,7 +124,7 @@ TEST_F(CommandTable, HaveExamplesThatTheCommandLineTakes) {
   for (const char* file : {"results/optimize-1/best.cfg", "results/sweep-1/config.cfg"}) {
     std::ofstream(file) << everything;
   }
-  Archive("results/sweep-1/archive.sqlite", "sweep");
+  (void)Archive("results/sweep-1/archive.sqlite", "sweep");
   for (const Command& command : commands()) {
     ASSERT_NE(command.run, nullptr) << command.name;
     for (const std::string& example : command.examples) {
