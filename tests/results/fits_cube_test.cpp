@@ -230,7 +230,7 @@ TEST_F(FitsCubeFile, ReadsScaledIntegersAndTheUnit) {
   auto cards = image_cards(16, {2, 2, 1});
   cards.push_back(card("BSCALE", "0.5"));
   cards.push_back(card("BZERO", "10.0"));
-  cards.push_back("BUNIT   = 'm       '");
+  cards.emplace_back("BUNIT   = 'm       '");
   save("scaled.fits", fits_file(cards, shorts({0, 1, -1, 100})));
   const FitsCube cube = read_fits_cube("scaled.fits", "screens.file");
   EXPECT_EQ(cube.unit, "m");

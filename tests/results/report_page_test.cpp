@@ -27,7 +27,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 /// What a browser's script finds in the page.
 Json data_in(const std::string& page) {
-  const std::string open = "<script type=\"application/json\" id=\"data\">";
+  const std::string open = R"(<script type="application/json" id="data">)";
   const auto begin = page.find(open) + open.size();
   return Json::parse(page.substr(begin, page.find("</script", begin) - begin));
 }
