@@ -43,7 +43,6 @@ char* mutable_text(const std::string& text) {
 template <class Texts>
 std::vector<char*> mutable_texts(const Texts& texts) {
   std::vector<char*> pointers;
-  pointers.reserve(texts.size());
   for (const std::string& text : texts) pointers.push_back(mutable_text(text));
   return pointers;
 }

@@ -62,7 +62,6 @@ using OfScreens = std::vector<double> (*)(const SetupRuns& runs, std::string_vie
 
 std::string bands_text(const SetupRuns& runs, OfScreens values, const char* unit) {
   std::vector<std::string> texts;
-  texts.reserve(paper_bands.size());
   for (const PaperBand& band : paper_bands) {
     texts.push_back(fmt::format("{} {}", band.name,
                                 with_error(mean_and_standard_error(values(runs, band.name)))));

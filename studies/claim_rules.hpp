@@ -64,7 +64,6 @@ std::string median_text(const std::vector<double>& values);
 template <class Ratios, class Text>
 std::string for_each_ratio(const Ratios& ratios, const Text& text) {
   std::vector<std::string> texts;
-  texts.reserve(std::size(ratios));
   for (const int ratio : ratios) texts.push_back(fmt::format("{}: {}", ratio, text(ratio)));
   return fmt::format("D/r0 = {}", fmt::join(texts, "; "));
 }

@@ -101,7 +101,6 @@ void run_export(const CommandLine& command_line) {
                         {"files", files}});
 
   std::vector<std::string> counts;
-  counts.reserve(stages.size());
   for (const auto& [stage, count] : stages)
     counts.push_back(fmt::format("{} {}", one_line(stage), count));
   record.print("{} evaluations of {}{}, {} of them failed\n", list.size(),

@@ -191,9 +191,8 @@ void run_law(const CommandLine& command_line) {
   if (data.size() < ratios.size()) {
     const std::string done = fmt::format("{} of {} seeings were done", data.size(), ratios.size());
     if (data.size() < least_seeings) {
-      throw RunInterrupted(
-          fmt::format("{}, and a law needs {}{}; go on with: nlcwfs law --resume {}", done,
-                      least_seeings, ended_when, record.folder().path().string()));
+      throw RunInterrupted(fmt::format("{}, and a law needs {}{}; {}", done, least_seeings,
+                                       ended_when, record.how_to_go_on()));
     }
     record.note_interrupted(done + ended_when);
   }

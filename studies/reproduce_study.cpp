@@ -51,8 +51,9 @@ bool has_archive(const std::filesystem::path& folder) {
 }
 
 /// Runs what of the plan is not done yet.
-void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::path& folder,
+void run_missing(const std::vector<PlannedRun>& runs, const RunRecord& record,
                  const std::shared_ptr<TrialRunner>& runner) {
+  const std::filesystem::path& folder = record.folder().path();
   const auto is_done = [&](const PlannedRun& run) {
     const std::filesystem::path path = folder / run.folder;
     return is_of(run, path) && is_complete(path);
@@ -86,21 +87,19 @@ void run_missing(const std::vector<PlannedRun>& runs, const std::filesystem::pat
       std::filesystem::remove_all(path);  // what a killed run has left, which cannot go on
       std::filesystem::create_directories(path.parent_path());
     }
-    const std::string how_to_go_on =
-        fmt::format("go on with: nlcwfs reproduce --resume {}", folder.string());
     try {
       if (InterruptWatch::interrupted()) throw RunInterrupted();
       run_part(part);
     } catch (const InputError&) {
       throw;
     } catch (const RunInterrupted&) {
-      throw RunInterrupted(fmt::format("in {}; {}", place, how_to_go_on));
+      throw RunInterrupted(fmt::format("in {}; {}", place, record.how_to_go_on()));
     } catch (const VerificationFailed& failure) {
       throw std::runtime_error(
-          fmt::format("{}: {}; {}", runs[i].folder, failure.what_failed(), how_to_go_on));
+          fmt::format("{}: {}; {}", runs[i].folder, failure.what_failed(), record.how_to_go_on()));
     } catch (const std::exception& error) {
       throw std::runtime_error(
-          fmt::format("{}: {}; {}", runs[i].folder, error.what(), how_to_go_on));
+          fmt::format("{}: {}; {}", runs[i].folder, error.what(), record.how_to_go_on()));
     }
     done += work_of(runs[i]);
   }
@@ -138,7 +137,7 @@ void run_reproduce(const CommandLine& command_line) {
   const std::vector<PlannedRun> runs = planned_runs(configuration);
   RunRecord record(command_line);
   const std::filesystem::path& folder = record.folder().path();
-  run_missing(runs, folder, command_line.runner);
+  run_missing(runs, record, command_line.runner);
 
   const ReproducedRuns reproduced(folder);
   const std::vector<Claim> claims = checked_claims(reproduced, figures);

@@ -49,6 +49,11 @@ RunRecord::RunRecord(const CommandLine& command_line)
   if (!command_line.silent) print_ignored_keys(command_line);
 }
 
+std::string RunRecord::how_to_go_on() const {
+  return fmt::format("go on with: nlcwfs {} --resume {}", command_line_.command,
+                     folder_.path().string());
+}
+
 void RunRecord::adopt(DesignTrial& trial) const {
   trial.remember_in(memory_);
   trial.run_on(command_line_.runner);

@@ -26,14 +26,16 @@ class RunRecord {
  public:
   /// Makes the folder with the configuration and an empty archive; with --resume it takes those of
   /// the earlier run, and whatever else that has left is made anew. No other process may have its
-  /// run there meanwhile. Notes keys that the command
-  /// ignores. Call it when nothing in the input can be wrong any more.
+  /// run there meanwhile. Notes keys that the command ignores. Call it when nothing in the input
+  /// can be wrong any more.
   explicit RunRecord(const CommandLine& command_line);
 
   /// Where the run writes to.
   const OutputFolder& folder() const { return folder_; }
   /// The run's evaluations.
   Archive& archive() { return archive_; }
+  /// "go on with: nlcwfs sweep --resume results/sweep-1"
+  std::string how_to_go_on() const;
   /// From now on the trial remembers in the archive, and simulates on the ranks of the run.
   void adopt(DesignTrial& trial) const;
 

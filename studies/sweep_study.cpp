@@ -372,10 +372,6 @@ Json grid_object(const Task& task, const std::vector<const Outcome*>& points) {
   return object;
 }
 
-std::string how_to_go_on(const RunRecord& record) {
-  return fmt::format("go on with: nlcwfs sweep --resume {}", record.folder().path().string());
-}
-
 /// On fresh screens, without those that fail there.
 /// @throws VerificationFailed where all do
 std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const Sweep& sweep,
@@ -390,7 +386,7 @@ std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const
     const bool is_whole =
         !tried || static_cast<int>(tried->costs.size()) == task.verification.screen_count();
     if (!is_whole || (InterruptWatch::interrupted() && !is_last)) {
-      throw RunInterrupted(fmt::format("in the verification; {}", how_to_go_on(record)));
+      throw RunInterrupted(fmt::format("in the verification; {}", record.how_to_go_on()));
     }
     if (tried) verified.push_back({.candidate = i, .verified = std::move(*tried)});
   }
@@ -435,7 +431,7 @@ void run_sweep(const CommandLine& command_line) {
   sweep.run(command_line);
   if (!sweep.is_complete()) {
     throw RunInterrupted(fmt::format("{} of {} designs are done; {}", sweep.done(),
-                                     sweep.designs().size(), how_to_go_on(record)));
+                                     sweep.designs().size(), record.how_to_go_on()));
   }
 
   const std::vector<const Outcome*> points = outcomes_of_points(task, sweep);

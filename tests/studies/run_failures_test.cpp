@@ -6,13 +6,13 @@
 #include "results/design_summary.hpp"
 #include "results/folder_lock.hpp"
 #include "studies/settings.hpp"
+#include "tests/sqlite_query.hpp"
 #include "tests/studies/program.hpp"
 
 #include <algorithm>
 #include <iterator>
 
 #include <gmock/gmock.h>
-#include <sqlite3.h>
 
 namespace nlcwfs {
 namespace {
@@ -79,23 +79,10 @@ class RunFailures : public Program {
   }
 };
 
-/// All trials of an archive as text, with what clocks measured: two simulations never have equal
-/// ones.
-std::vector<std::string> trials_of(const std::string& folder) {
-  sqlite3* database = nullptr;
-  EXPECT_EQ(sqlite3_open((folder + "/archive.sqlite").c_str(), &database), SQLITE_OK);
-  std::vector<std::string> rows;
-  const auto add = [](void* all, int, char** values, char**) {
-    static_cast<std::vector<std::string>*>(all)->emplace_back(values[0]);
-    return 0;
-  };
-  EXPECT_EQ(sqlite3_exec(database,
-                         "SELECT trial || design || ifnull(hex(performances), failure) FROM trials "
-                         "ORDER BY trial, design",
-                         add, &rows, nullptr),
-            SQLITE_OK);
-  sqlite3_close(database);
-  return rows;
+/// All trials of an archive, with what clocks measured: two simulations never have equal ones.
+std::vector<Row> trials_of(const std::string& folder) {
+  return query(folder + "/archive.sqlite",
+               "SELECT trial, design, hex(performances), failure FROM trials ORDER BY 1, 2");
 }
 
 TEST_F(RunFailures, ASweepLeavesOutADesignThatFailsInTheVerification) {
@@ -135,16 +122,16 @@ TEST_F(RunFailures, WithoutADesignThatIsVerifiedARunSaysHowToKeepWhatItHas) {
                              "again: nlcwfs sweep --resume run\n")));
   // A new run tries these again, and takes over the others.
   done("sweep", "again", {"--reuse", "run"});
-  const std::vector<std::string> trials = trials_of("run");
-  const std::vector<std::string> again = trials_of("again");
-  std::vector<std::string> taken_over;
+  const std::vector<Row> trials = trials_of("run");
+  const std::vector<Row> again = trials_of("again");
+  std::vector<Row> taken_over;
   std::ranges::set_intersection(trials, again, std::back_inserter(taken_over));
   EXPECT_EQ(taken_over.size(), 4u);
   EXPECT_EQ(again.size(), 4u + 3u);
   EXPECT_EQ(Json::parse(contents("again/summary.json"))["ranking"].size(), 3u);
 }
 
-TEST_F(RunFailures, ASearchWhoseScanFailsCanGoOnWithIt) {
+TEST_F(RunFailures, ASearchWhoseScanFailsSaysHowToGoOn) {
   done("optimize", "run");
   let_fail(summary()["best"], fresh_trial_of(configuration(), "search.precision"));
   const ProgramRun resumed = run({"optimize", "--resume", "run"});
@@ -192,7 +179,7 @@ TEST_F(RunFailures, ARunIsOfOneProcess) {
 
 TEST_F(RunFailures, AnotherRunsTrialsAreTakenOver) {
   done("sweep", "first");
-  const std::vector<std::string> trials = trials_of("first");
+  const std::vector<Row> trials = trials_of("first");
   ASSERT_EQ(trials.size(), 4u + 3u);
   // Another objective is another study of the same trials.
   done("sweep", "second", {"--objective.loop_weight", "0.3", "--reuse", "first"});
