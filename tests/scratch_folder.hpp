@@ -7,17 +7,20 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace nlcwfs {
 
-/// An empty folder of its own for each test, which is also the working directory.
+/// An empty folder of its own for each test and process (two builds may run the same test at
+/// once), which is also the working directory.
 class ScratchFolder : public testing::Test {
  protected:
   void SetUp() override {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / "nlcwfs" / test->test_suite_name() /
-              test->name();
+    folder_ = std::filesystem::path(testing::TempDir()) / "nlcwfs" /
+              fmt::format("{}.{}.{}", test->test_suite_name(), test->name(), getpid());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     previous_ = std::filesystem::current_path();
