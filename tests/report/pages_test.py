@@ -178,7 +178,7 @@ class PagesTest(unittest.TestCase):
         drawn = ImageChops.difference(image, Image.new("RGB", image.size, ground)).convert("L")
         share = 1 - drawn.histogram()[0] / (image.width * image.height)
         self.assertGreater(share, 0.02)
-        self.assertGreater(len(image.getcolors(1 << 24)), 50)
+        self.assertIsNone(image.getcolors(50))  # none are named where there are more
 
     def assert_fits(self):
         self.assertLessEqual(self.script("return document.documentElement.scrollWidth"),
