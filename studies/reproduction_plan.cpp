@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <iterator>
 #include <numeric>
 #include <set>
@@ -221,6 +222,25 @@ void add_figure_4(Plan& plan, Setup setup) {
   add_design(plan, setup, "without-p1", {1, 2, 3});
 }
 
+/// The figures whose runs are made in either setup.
+void add_figures(Plan& plan, Setup setup, const std::predicate<std::string_view> auto& wants) {
+  if (wants("3")) add_figure_3(plan, setup);
+  if (wants("4")) add_figure_4(plan, setup);
+  if (wants("5")) {
+    add_fifth_plane(plan, setup);
+    add_four_planes(plan, setup);
+  }
+  if (wants("6")) {
+    for (const int ratio : sampling_ratios) add_sampling(plan, setup, ratio);
+  }
+  for (const PaperBand& band : paper_bands) {
+    if (wants("8") || (wants("7") && band.name == "medium")) add_broadband(plan, setup, band);
+  }
+  for (const NamedSettings& telescope : scaled_telescopes()) {
+    if (wants("scaling")) add_scaled(plan, setup, telescope);
+  }
+}
+
 void add_numerics(Plan& plan, int screens) {
   for (const NamedSettings& variant : numerical_variants(screens)) {
     for (const NamedSettings& probe : numerical_probes()) {
@@ -357,23 +377,7 @@ std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
     return std::ranges::count(figures, figure) > 0;
   };
   Plan plan(configuration);
-  for (const Setup setup : setups) {
-    if (wants("3")) add_figure_3(plan, setup);
-    if (wants("4")) add_figure_4(plan, setup);
-    if (wants("5")) {
-      add_fifth_plane(plan, setup);
-      add_four_planes(plan, setup);
-    }
-    if (wants("6")) {
-      for (const int ratio : sampling_ratios) add_sampling(plan, setup, ratio);
-    }
-    for (const PaperBand& band : paper_bands) {
-      if (wants("8") || (wants("7") && band.name == "medium")) add_broadband(plan, setup, band);
-    }
-    for (const NamedSettings& telescope : scaled_telescopes()) {
-      if (wants("scaling")) add_scaled(plan, setup, telescope);
-    }
-  }
+  for (const Setup setup : setups) add_figures(plan, setup, wants);
   if (wants("response")) add_responses(plan);
   if (wants("numerics")) add_numerics(plan, configuration.integer("screens.count"));
   return std::move(plan).runs();
