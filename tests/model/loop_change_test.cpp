@@ -21,7 +21,7 @@ PhaseScreen defocus(double rms) {
 }
 
 double rms_over_mask(const PhaseScreen& phase) {
-  const double count = double(mask.count());
+  const auto count = double(mask.count());
   const double mean = mask.select(phase, 0.0).sum() / count;
   return std::sqrt(mask.select((phase - mean).square(), 0.0).sum() / count);
 }

@@ -129,8 +129,8 @@ int residue_count(const Field<double>& field, const PupilMask& mask) {
       const auto step = [&](Eigen::Index a, Eigen::Index b, Eigen::Index c, Eigen::Index d) {
         return std::arg(field(row + c, column + d) * std::conj(field(row + a, column + b)));
       };
-      count +=
-          std::abs(step(0, 0, 0, 1) + step(0, 1, 1, 1) + step(1, 1, 1, 0) + step(1, 0, 0, 0)) > pi;
+      const double turn = step(0, 0, 0, 1) + step(0, 1, 1, 1) + step(1, 1, 1, 0) + step(1, 0, 0, 0);
+      if (std::abs(turn) > pi) ++count;
     }
   }
   return count;
@@ -138,7 +138,7 @@ int residue_count(const Field<double>& field, const PupilMask& mask) {
 
 class PhaseUnwrapping : public testing::TestWithParam<UnwrappingMethod> {
  protected:
-  Image<double> unwrap(const Field<double>& field, const PupilMask& mask) const {
+  static Image<double> unwrap(const Field<double>& field, const PupilMask& mask) {
     return PhaseUnwrapper(mask, GetParam()).unwrap(field);
   }
 };

@@ -39,11 +39,11 @@ double greatest_difference(const std::vector<Image<double>>& a,
 
 class Light : public testing::TestWithParam<TruthModel> {
  protected:
-  std::vector<Image<double>> images(const LightSource& source = {}) const {
+  static std::vector<Image<double>> images(const LightSource& source = {}) {
     return images(Telescope(), design(), aberration(), source);
   }
-  std::vector<Image<double>> images(const Telescope& telescope, const SensorDesign& sensor,
-                                    const PhaseScreen& phase, const LightSource& source) const {
+  static std::vector<Image<double>> images(const Telescope& telescope, const SensorDesign& sensor,
+                                           const PhaseScreen& phase, const LightSource& source) {
     return TrueLight(GetParam(), telescope, sensor, samples, source).images(phase, all_planes);
   }
 };

@@ -352,7 +352,8 @@ TEST_F(DesignTrialTest, KeepsThatMemoryWasShortOnlyWhereItsFailuresAreKept) {
 TEST_F(DesignTrialTest, BlamesNoDesignForAMemoryThatFails) {
   class FullMemory : public MapMemory {
    public:
-    void keep(const std::string&, const std::string&, const RememberedTrial&) override {
+    void keep(const std::string& /*trial*/, const std::string& /*design*/,
+              const RememberedTrial& /*remembered*/) override {
       ++kept;
       throw TrialMemoryFailed("disk full");
     }

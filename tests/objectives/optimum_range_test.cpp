@@ -73,8 +73,7 @@ TEST(OptimumRange, KeepsEveryValueThatItTried) {
   const TriedDesign reference = trial.run(space.design(best));
   int tried = 1;
   int worse = 0;
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    const OptimumRange& range = scan.ranges[i];
+  for (const OptimumRange& range : scan.ranges) {
     SCOPED_TRACE(range.name);
     EXPECT_TRUE(std::ranges::is_sorted(range.values, {}, &ScannedValue::value));
     tried += static_cast<int>(range.values.size()) - 1;
