@@ -28,7 +28,7 @@ int sum_of_stages(const SearchResult& result) {
 /// Every method on every problem that it can solve.
 class EveryMethod : public testing::TestWithParam<std::string> {
  protected:
-  std::vector<TestProblem> problems() const {
+  static std::vector<TestProblem> problems() {
     std::vector<TestProblem> problems = solvable_problems();
     for (TestProblem& problem : mixed_problems()) problems.push_back(std::move(problem));
     std::erase_if(problems, [](const TestProblem& problem) {
@@ -68,7 +68,7 @@ TEST_P(EveryMethod, KeepsWithinTheBudgetAndReportsTheBestRecord) {
       std::set<std::string> keys;
       for (const EvaluationRecord& record : records) {
         keys.insert(record.key);
-        failures += !record.failure.empty();
+        failures += record.failure.empty() ? 0 : 1;
         if (record.failure.empty() && record.violation == 0.0) {
           lowest = std::min(lowest, record.cost);
         }

@@ -33,6 +33,7 @@ inline std::string exact_key(const SearchPoint& point) {
 struct Counter {
   Counter() = default;
   Counter(const Counter& other) : count(other.count.load()) {}
+  ~Counter() = default;
   Counter& operator=(const Counter& other) {
     count = other.count.load();
     return *this;
@@ -65,7 +66,7 @@ struct TestProblem : Problem {
     return all;
   }
   std::string key(const SearchPoint& point) const override { return key_of(point); }
-  Assessment assess(const SearchPoint& point, const GoesOn&) override {
+  Assessment assess(const SearchPoint& point, const GoesOn& /*goes_on*/) override {
     ++calls;
     return {.costs = {function(point.sub_space, point.x)},
             .violation = excess(point.x),
