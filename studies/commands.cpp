@@ -291,6 +291,10 @@ const Command& command_of(std::string_view name) {
   return *std::ranges::find(commands(), name, &Command::name);
 }
 
+std::string resume_command(std::string_view command, const std::filesystem::path& folder) {
+  return fmt::format("nlcwfs {} --resume {}", command, folder.string());
+}
+
 std::vector<std::string> command_names() {
   std::vector<std::string> names;
   for (const Command& command : commands()) names.push_back(command.name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,11 @@ const std::vector<Command>& commands();
 
 /// @pre there is such a command
 const Command& command_of(std::string_view name);
+
+/// The command line that goes on with a run: "nlcwfs sweep --resume results/sweep-1".
+/// @param command  its name
+/// @param folder   the run's
+std::string resume_command(std::string_view command, const std::filesystem::path& folder);
 
 /// Their names, in that order.
 std::vector<std::string> command_names();

@@ -50,8 +50,7 @@ RunRecord::RunRecord(const CommandLine& command_line)
 }
 
 std::string RunRecord::how_to_go_on() const {
-  return fmt::format("go on with: nlcwfs {} --resume {}", command_line_.command,
-                     folder_.path().string());
+  return "go on with: " + resume_command(command_line_.command, folder_.path());
 }
 
 void RunRecord::adopt(DesignTrial& trial) const {
@@ -93,7 +92,7 @@ void RunRecord::close() const {
   if (!interruption_.empty()) {
     print("Interrupted when {}: the results are of these.\n", interruption_);
     if (command_of(command_line_.command).resumable) {
-      print("Go on with: nlcwfs {} --resume {}\n", command_line_.command, folder_.path().string());
+      print("Go on with: {}\n", resume_command(command_line_.command, folder_.path()));
     }
   }
   const std::filesystem::path page = folder_.file("report.html");

@@ -85,10 +85,10 @@ TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verif
   archive_and_log(archive, evaluation);
   if (tried) return *tried;
   const std::string command = archive.command();
-  const std::string how_to_go_on = command_of(command).resumable
-                                       ? fmt::format("; to try it again: nlcwfs {} --resume {}",
-                                                     command, archive.path().parent_path().string())
-                                       : "";
+  const std::string how_to_go_on =
+      command_of(command).resumable
+          ? "; to try it again: " + resume_command(command, archive.path().parent_path())
+          : "";
   throw VerificationFailed(
       fmt::format("the design of the planes {} failed on the fresh screens: {}",
                   planes_text(design), evaluation.failure),

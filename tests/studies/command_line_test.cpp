@@ -3,6 +3,7 @@
 #include "results/archive.hpp"
 #include "studies/commands.hpp"
 #include "tests/message_of.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -32,16 +33,9 @@ std::string parse_message(const std::vector<const char*>& arguments) {
   return message_of([&] { parse(arguments); });
 }
 
-std::string write_file(const std::string& name, std::string_view contents) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "nlcwfs_command_line" /
-      testing::UnitTest::GetInstance()->current_test_info()->name();
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / name) << contents;
-  return (folder / name).string();
-}
+using CommandLineTest = ScratchFolder;
 
-TEST(CommandLine, ReadsTheCommandAndItsOptions) {
+TEST_F(CommandLineTest, ReadsTheCommandAndItsOptions) {
   const CommandLine plain = parse({"evaluate"});
   EXPECT_EQ(plain.command, "evaluate");
   EXPECT_EQ(plain.output, std::nullopt);
@@ -61,7 +55,7 @@ TEST(CommandLine, ReadsTheCommandAndItsOptions) {
   EXPECT_EQ(full.configuration.source("screens.count"), "on the command line");
 }
 
-TEST(CommandLine, ValuesMayBeginWithAMinus) {
+TEST_F(CommandLineTest, ValuesMayBeginWithAMinus) {
   for (const auto& arguments :
        std::vector<std::vector<const char*>>{{"evaluate", "--sensor.planes", "-47km,47km"},
                                              {"evaluate", "--sensor.planes=-47km,47km"}}) {
@@ -69,15 +63,13 @@ TEST(CommandLine, ValuesMayBeginWithAMinus) {
   }
 }
 
-TEST(CommandLine, TheStrongerLayerWinsWhateverTheOrderOfTheArguments) {
-  const std::string first = write_file("first.cfg",
-                                       "[telescope]\ndiameter = 1m\nwavelength = 600nm\n"
-                                       "[reconstruction]\nwindow = 5\n[screens]\ncount = 3\n");
-  const std::string second =
-      write_file("second.cfg", "[telescope]\ndiameter = 2m\nwavelength = 700nm\n");
+TEST_F(CommandLineTest, TheStrongerLayerWinsWhateverTheOrderOfTheArguments) {
+  std::ofstream("first.cfg") << "[telescope]\ndiameter = 1m\nwavelength = 600nm\n"
+                                "[reconstruction]\nwindow = 5\n[screens]\ncount = 3\n";
+  std::ofstream("second.cfg") << "[telescope]\ndiameter = 2m\nwavelength = 700nm\n";
   const Configuration configuration =
-      parse({"--telescope.diameter", "3m", "evaluate", "--config", first.c_str(), "--config",
-             second.c_str(), "--preset", "paper"})
+      parse({"--telescope.diameter", "3m", "evaluate", "--config", "first.cfg", "--config",
+             "second.cfg", "--preset", "paper"})
           .configuration;
   EXPECT_EQ(configuration.length("telescope.diameter"), 3.0);
   EXPECT_EQ(configuration.length("telescope.wavelength"), 700e-9);
@@ -87,15 +79,15 @@ TEST(CommandLine, TheStrongerLayerWinsWhateverTheOrderOfTheArguments) {
   EXPECT_EQ(configuration.integer("detector.pupil_pixels"), 64);
 }
 
-TEST(CommandLine, ADumpedConfigurationReproducesTheCommandLine) {
+TEST_F(CommandLineTest, ADumpedConfigurationReproducesTheCommandLine) {
   const Configuration configuration = parse({"evaluate", "--preset", "paper", "--seeing.fwhm",
                                              "0.8", "--sensor.planes", "-1km,2km"})
                                           .configuration;
-  const std::string file = write_file("my config.cfg", configuration.dump());
-  EXPECT_EQ(parse({"evaluate", "--config", file.c_str()}).configuration, configuration);
+  std::ofstream("my config.cfg") << configuration.dump();
+  EXPECT_EQ(parse({"evaluate", "--config", "my config.cfg"}).configuration, configuration);
 }
 
-TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
+TEST_F(CommandLineTest, HelpAndVersionWorkWithAndWithoutACommand) {
   EXPECT_TRUE(parse({"--help"}).help);
   EXPECT_TRUE(parse({"--version"}).version);
   for (const Command& command : commands()) {
@@ -107,7 +99,7 @@ TEST(CommandLine, HelpAndVersionWorkWithAndWithoutACommand) {
   EXPECT_TRUE(parse({"evaluate", "--help", "--config", "/no/such.cfg"}).help);
 }
 
-TEST(CommandLine, AsksForACommand) {
+TEST_F(CommandLineTest, AsksForACommand) {
   const std::string names = fmt::format("{}", fmt::join(command_names(), ", "));
   const std::string message = "command line = (nothing): a command must stand there, one of " +
                               names + "; nlcwfs --help explains them";
@@ -121,14 +113,14 @@ TEST(CommandLine, AsksForACommand) {
   EXPECT_THAT(parse_message({""}), StartsWith("command line = (nothing): no command"));
 }
 
-TEST(CommandLine, NamesAStrayArgument) {
+TEST_F(CommandLineTest, NamesAStrayArgument) {
   EXPECT_EQ(parse_message({"evaluate", "--telescope.diameter", "5", "m"}),
             "command line = m: nothing may follow the command evaluate but options; a value is one "
             "word, such as 0.5m or -47km,47km");
   EXPECT_THAT(parse_message({"evaluate", "optimize"}), StartsWith("command line = optimize: "));
 }
 
-TEST(CommandLine, TakesTheArgumentsOfACommand) {
+TEST_F(CommandLineTest, TakesTheArgumentsOfACommand) {
   EXPECT_THAT(parse({"compare", "a", "--quiet", "b c"}).arguments, ElementsAre("a", "b c"));
   for (const auto& arguments :
        std::vector<std::vector<const char*>>{{"compare"}, {"compare", "a"}}) {
@@ -142,7 +134,7 @@ TEST(CommandLine, TakesTheArgumentsOfACommand) {
   EXPECT_TRUE(parse({"evaluate"}).arguments.empty());
 }
 
-TEST(CommandLine, SuggestsTheNearestOption) {
+TEST_F(CommandLineTest, SuggestsTheNearestOption) {
   EXPECT_EQ(
       parse_message({"evaluate", "--telescope.diametr", "5"}),
       "command line = --telescope.diametr: unknown option; did you mean --telescope.diameter?");
@@ -153,7 +145,7 @@ TEST(CommandLine, SuggestsTheNearestOption) {
   EXPECT_THAT(parse_message({"evaluate", "--outptu", "x"}), EndsWith("did you mean --output?"));
 }
 
-TEST(CommandLine, SuggestsNothingThatIsFar) {
+TEST_F(CommandLineTest, SuggestsNothingThatIsFar) {
   EXPECT_EQ(parse_message({"evaluate", "--bogus"}),
             "command line = --bogus: unknown option; nlcwfs manual lists all");
   for (const char* word : {"bogus", "design"}) {
@@ -161,7 +153,7 @@ TEST(CommandLine, SuggestsNothingThatIsFar) {
   }
 }
 
-TEST(CommandLine, TakesAWordOfHelp) {
+TEST_F(CommandLineTest, TakesAWordOfHelp) {
   EXPECT_TRUE(parse({"help"}).help);
   EXPECT_TRUE(parse({"-h"}).help);
   for (const std::vector<const char*>& words :
@@ -173,13 +165,13 @@ TEST(CommandLine, TakesAWordOfHelp) {
   EXPECT_THAT(parse_message({"help", "bogus"}), StartsWith("command line = bogus: no command"));
 }
 
-TEST(CommandLine, SaysThatAListIsOneWord) {
+TEST_F(CommandLineTest, SaysThatAListIsOneWord) {
   EXPECT_EQ(parse_message({"evaluate", "--sensor.planes", "180km", "-180km"}),
             "command line = -180km: values are one word, separated by commas, as in "
             "--sensor.planes=-180km,180km");
 }
 
-TEST(CommandLine, KnowsNeitherAbbreviationsNorShortOptions) {
+TEST_F(CommandLineTest, KnowsNeitherAbbreviationsNorShortOptions) {
   EXPECT_THAT(parse_message({"evaluate", "--telescope.diam", "5"}),
               EndsWith("--telescope.diam: unknown option; did you mean --telescope.diameter?"));
   EXPECT_THAT(parse_message({"evaluate", "--qui"}), EndsWith("did you mean --quiet?"));
@@ -187,7 +179,7 @@ TEST(CommandLine, KnowsNeitherAbbreviationsNorShortOptions) {
             "command line = -q: unknown option; did you mean --quiet?");
 }
 
-TEST(CommandLine, SaysWhatIsMissing) {
+TEST_F(CommandLineTest, SaysWhatIsMissing) {
   const std::string message =
       "screens.seed = (nothing): a whole number from 0 to 18446744073709551615";
   for (const auto& arguments : std::vector<std::vector<const char*>>{
@@ -205,7 +197,7 @@ TEST(CommandLine, SaysWhatIsMissing) {
   }
 }
 
-TEST(CommandLine, RefusesWhatIsGivenTwice) {
+TEST_F(CommandLineTest, RefusesWhatIsGivenTwice) {
   EXPECT_EQ(parse_message({"evaluate", "--screens.seed", "1", "--screens.seed", "2"}),
             "command line = --screens.seed 2: given twice; keep one of them");
   EXPECT_EQ(parse_message({"evaluate", "--output=a", "--output=b"}),
@@ -214,7 +206,7 @@ TEST(CommandLine, RefusesWhatIsGivenTwice) {
             "command line = --quiet: given twice; keep one of them");
 }
 
-TEST(CommandLine, OnlyAdviseVerifiesOnDemand) {
+TEST_F(CommandLineTest, OnlyAdviseVerifiesOnDemand) {
   EXPECT_TRUE(parse({"advise", "--verify"}).verify);
   EXPECT_FALSE(parse({"advise"}).verify);
   for (const Command& command : commands()) {
@@ -226,7 +218,7 @@ TEST(CommandLine, OnlyAdviseVerifiesOnDemand) {
   }
 }
 
-TEST(CommandLine, FiguresOfAReproductionAddUp) {
+TEST_F(CommandLineTest, FiguresOfAReproductionAddUp) {
   EXPECT_EQ(parse({"reproduce", "--figure", "3", "--figure", "response"})
                 .configuration.text("reproduce.figures"),
             "3,response");
@@ -239,12 +231,12 @@ TEST(CommandLine, FiguresOfAReproductionAddUp) {
             "a.fits");
 }
 
-TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
+TEST_F(CommandLineTest, ResumesWithTheConfigurationOfTheFolder) {
   Configuration earlier;
   earlier.set("screens.count", "3", "in a test");
-  const std::filesystem::path folder =
-      std::filesystem::path(write_file("config.cfg", earlier.dump())).parent_path();
-  std::filesystem::remove(folder / "archive.sqlite");  // of an earlier test
+  const std::filesystem::path folder = std::filesystem::absolute("run");
+  std::filesystem::create_directory(folder);
+  std::ofstream(folder / "config.cfg") << earlier.dump();
   (void)Archive(folder / "archive.sqlite", "sweep");
   const std::string name = folder.string();
   EXPECT_THAT(parse_message({"trade", "--resume", name.c_str()}),
@@ -276,7 +268,7 @@ TEST(CommandLine, ResumesWithTheConfigurationOfTheFolder) {
               StartsWith("--resume = no/such/folder: there is no such folder; "));
 }
 
-TEST(CommandLine, OnlySomeCommandsResume) {
+TEST_F(CommandLineTest, OnlySomeCommandsResume) {
   for (const Command& command : commands()) {
     if (command.resumable) continue;
     std::vector<const char*> arguments{"--resume", "run", command.name.c_str()};
@@ -287,7 +279,7 @@ TEST(CommandLine, OnlySomeCommandsResume) {
   }
 }
 
-TEST(CommandLine, ThreadsAreAWholeNumber) {
+TEST_F(CommandLineTest, ThreadsAreAWholeNumber) {
   for (const char* threads : {"-1", "1.5", "two", "4097", "99999999999"}) {
     EXPECT_EQ(
         parse_message({"evaluate", "--threads", threads}),
@@ -295,7 +287,7 @@ TEST(CommandLine, ThreadsAreAWholeNumber) {
   }
 }
 
-TEST(CommandLine, PassesOnWhatTheConfigurationRefuses) {
+TEST_F(CommandLineTest, PassesOnWhatTheConfigurationRefuses) {
   EXPECT_THAT(parse_message({"evaluate", "--telescope.diameter", "5parsec"}),
               AllOf(StartsWith("telescope.diameter = 5parsec: a length above 0"),
                     EndsWith("(on the command line)")));
@@ -308,7 +300,7 @@ TEST(CommandLine, PassesOnWhatTheConfigurationRefuses) {
   EXPECT_EQ(parse_message({"evaluate", "--quiet=yes"}), "command line = --quiet: takes no value");
 }
 
-TEST(CommandLine, EveryMessageIsOneLine) {
+TEST_F(CommandLineTest, EveryMessageIsOneLine) {
   for (const auto& arguments :
        std::vector<std::vector<const char*>>{{"a\nb"},
                                              {"evaluate", "a\nb"},
@@ -323,7 +315,7 @@ TEST(CommandLine, EveryMessageIsOneLine) {
   }
 }
 
-TEST(CommandLine, HasFourLogLevels) {
+TEST_F(CommandLineTest, HasFourLogLevels) {
   EXPECT_EQ(parse({"evaluate", "--log-level", "error"}).log_level, LogLevel::error);
   EXPECT_EQ(parse({"evaluate", "--log-level", "warning"}).log_level, LogLevel::warning);
   EXPECT_EQ(parse({"evaluate", "--log-level=info"}).log_level, LogLevel::info);

@@ -2,6 +2,7 @@
 
 #include "optimizer/nlopt_backend.hpp"
 #include "tests/message_of.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -24,19 +25,12 @@ using testing::StartsWith;
 
 constexpr std::string_view here = "on the command line";
 
-/// A file of the given contents, in a folder of the running test's own.
-std::filesystem::path write_file(const std::string& name, std::string_view contents) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "nlcwfs_configuration" /
-      testing::UnitTest::GetInstance()->current_test_info()->name();
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / name, std::ios::binary) << contents;
-  return folder / name;
-}
+using ConfigurationTest = ScratchFolder;
 
 Configuration read(std::string_view contents) {
+  std::ofstream("my.cfg", std::ios::binary) << contents;
   Configuration configuration;
-  configuration.read_file(write_file("my.cfg", contents));
+  configuration.read_file("my.cfg");
   return configuration;
 }
 
@@ -91,7 +85,7 @@ TEST(ConfigurationKeys, ExamplesAreAllowedThemselves) {
   }
 }
 
-TEST(Configuration, StartsFromTheDefaultsInSi) {
+TEST_F(ConfigurationTest, StartsFromTheDefaultsInSi) {
   const Configuration configuration;
   EXPECT_EQ(configuration.length("telescope.diameter"), 0.5);
   EXPECT_EQ(configuration.length("telescope.wavelength"), 532e-9);
@@ -113,7 +107,7 @@ TEST(Configuration, StartsFromTheDefaultsInSi) {
   }
 }
 
-TEST(Configuration, ReturnsWhatWasSetAndWhoSetIt) {
+TEST_F(ConfigurationTest, ReturnsWhatWasSetAndWhoSetIt) {
   Configuration configuration;
   configuration.set("telescope.relay_beam_diameter", " 10mm ", here);
   configuration.set("screens.seed", "18446744073709551615", here);
@@ -129,7 +123,7 @@ TEST(Configuration, ReturnsWhatWasSetAndWhoSetIt) {
   EXPECT_EQ(configuration.source("search.z1"), here);
 }
 
-TEST(Configuration, SaysWhatIsAllowedInOneLine) {
+TEST_F(ConfigurationTest, SaysWhatIsAllowedInOneLine) {
   EXPECT_EQ(set_message("telescope.diameter", "-1"),
             "telescope.diameter = -1: a length above 0 and at most 1000 m in nm, um, mm, cm, m or "
             "km, such as 0.5m (on "
@@ -159,7 +153,7 @@ TEST(Configuration, SaysWhatIsAllowedInOneLine) {
             "line)");
 }
 
-TEST(Configuration, RefusesWhatLiesOutsideTheBounds) {
+TEST_F(ConfigurationTest, RefusesWhatLiesOutsideTheBounds) {
   const std::vector<std::pair<std::string, std::string>> refused{
       {"telescope.diameter", "0"},
       {"telescope.diameter", "nan"},
@@ -197,7 +191,7 @@ TEST(Configuration, RefusesWhatLiesOutsideTheBounds) {
   }
 }
 
-TEST(Configuration, AcceptsTheBoundsThemselvesWhereTheyAreIncluded) {
+TEST_F(ConfigurationTest, AcceptsTheBoundsThemselvesWhereTheyAreIncluded) {
   for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
            {"telescope.central_obscuration", "0"},
            {"telescope.central_obscuration", "0.999"},
@@ -210,7 +204,7 @@ TEST(Configuration, AcceptsTheBoundsThemselvesWhereTheyAreIncluded) {
   }
 }
 
-TEST(Configuration, SuggestsTheNearestOfTheKnownKeys) {
+TEST_F(ConfigurationTest, SuggestsTheNearestOfTheKnownKeys) {
   EXPECT_EQ(file_message("[telescope]\ndiametr = 1\n").substr(0, 36),
             "telescope.diametr = 1: unknown key i");
   EXPECT_THAT(file_message("[telescope]\ndiametr = 1\n"),
@@ -219,7 +213,7 @@ TEST(Configuration, SuggestsTheNearestOfTheKnownKeys) {
   EXPECT_THAT(file_message("= 1\n"), StartsWith("(nothing) = 1: unknown key"));
 }
 
-TEST(Configuration, PaperPresetIsThePapersSetUp) {
+TEST_F(ConfigurationTest, PaperPresetIsThePapersSetUp) {
   Configuration configuration;
   configuration.apply_preset("paper");
   EXPECT_EQ(configuration.choice("simulation.truth"), "matched");
@@ -236,12 +230,12 @@ TEST(Configuration, PaperPresetIsThePapersSetUp) {
   EXPECT_EQ(configuration.integer("reconstruction.max_loops"), 20);
 }
 
-TEST(Configuration, AnUnknownPresetIsAnsweredWithTheKnownOnes) {
+TEST_F(ConfigurationTest, AnUnknownPresetIsAnsweredWithTheKnownOnes) {
   EXPECT_EQ(message_of([] { Configuration().apply_preset("papre"); }),
             "--preset = papre: the only one is paper");
 }
 
-TEST(Configuration, OneMeasureOfTheSeeingReplacesTheDefault) {
+TEST_F(ConfigurationTest, OneMeasureOfTheSeeingReplacesTheDefault) {
   const Configuration configuration = read("[seeing]\nfwhm = 0.8\n");
   EXPECT_EQ(configuration.numbers("seeing.fwhm"), std::vector{0.8});
   EXPECT_FALSE(configuration.is_set("seeing.d_over_r0"));
@@ -249,7 +243,7 @@ TEST(Configuration, OneMeasureOfTheSeeingReplacesTheDefault) {
   EXPECT_THAT(Configuration().dump(), HasSubstr("\nd_over_r0 = 4\n"));
 }
 
-TEST(Configuration, TwoMeasuresOfTheSeeingAreRefusedAndBothNamed) {
+TEST_F(ConfigurationTest, TwoMeasuresOfTheSeeingAreRefusedAndBothNamed) {
   Configuration configuration;
   configuration.set("seeing.d_over_r0", "4", here);
   const std::string message = message_of([&] { configuration.set("seeing.fwhm", "0.8", here); });
@@ -260,20 +254,20 @@ TEST(Configuration, TwoMeasuresOfTheSeeingAreRefusedAndBothNamed) {
               StartsWith("seeing.fried_parameter = 12cm: set only one of"));
 }
 
-TEST(Configuration, ALaterLayersMeasureOfTheSeeingReplacesAnEarlierOnes) {
+TEST_F(ConfigurationTest, ALaterLayersMeasureOfTheSeeingReplacesAnEarlierOnes) {
   Configuration configuration = read("[seeing]\nd_over_r0 = 6\n");
   configuration.set("seeing.fwhm", "0.8", here);
   EXPECT_EQ(configuration.numbers("seeing.fwhm"), std::vector{0.8});
   EXPECT_FALSE(configuration.is_set("seeing.d_over_r0"));
 }
 
-TEST(Configuration, TheSameMeasureOfTheSeeingMayBeSetAgain) {
+TEST_F(ConfigurationTest, TheSameMeasureOfTheSeeingMayBeSetAgain) {
   Configuration configuration = read("[seeing]\nfwhm = 0.8\n");
   configuration.set("seeing.fwhm", "1.2", here);
   EXPECT_EQ(configuration.numbers("seeing.fwhm"), std::vector{1.2});
 }
 
-TEST(Configuration, ReadsSectionsDottedNamesCommentsAndForeignLineEnds) {
+TEST_F(ConfigurationTest, ReadsSectionsDottedNamesCommentsAndForeignLineEnds) {
   const Configuration configuration = read(
       "\xEF\xBB\xBF# comment\r\n"
       "telescope.wavelength = 850nm\r\n"
@@ -288,7 +282,7 @@ TEST(Configuration, ReadsSectionsDottedNamesCommentsAndForeignLineEnds) {
   EXPECT_THAT(configuration.source("telescope.diameter"), EndsWith("my.cfg, line 5"));
 }
 
-TEST(Configuration, NamesFileAndLineOfWhatItCannotRead) {
+TEST_F(ConfigurationTest, NamesFileAndLineOfWhatItCannotRead) {
   for (const char* line : {"diameter 0.5", "[telescope", "telescope]", "[telescope] 0.5", "\t!"}) {
     const std::string message = file_message(std::string("[screens]\ncount = 3\n") + line + "\n");
     EXPECT_THAT(message, AllOf(StartsWith("--config = "), HasSubstr("my.cfg: line 3, '"),
@@ -300,13 +294,13 @@ TEST(Configuration, NamesFileAndLineOfWhatItCannotRead) {
   EXPECT_THAT(file_message("[screens]\ncount =\n"), StartsWith("screens.count = (nothing): "));
 }
 
-TEST(Configuration, RefusesAKeyTwiceInOneFile) {
+TEST_F(ConfigurationTest, RefusesAKeyTwiceInOneFile) {
   EXPECT_THAT(file_message("[screens]\ncount = 3\n\n[telescope]\n[screens]\ncount = 4\n"),
               AllOf(StartsWith("screens.count = 4: set twice in "),
                     EndsWith("my.cfg, lines 2 and 6; keep one of them")));
 }
 
-TEST(Configuration, NamesTheFileThatItCannotOpen) {
+TEST_F(ConfigurationTest, NamesTheFileThatItCannotOpen) {
   EXPECT_EQ(message_of([] { Configuration().read_file("/no/such.cfg"); }),
             "--config = /no/such.cfg: cannot be read (No such file or directory); give the path of "
             "a configuration file");
@@ -314,18 +308,18 @@ TEST(Configuration, NamesTheFileThatItCannotOpen) {
             "--config = /: a directory; give the path of a configuration file");
 }
 
-TEST(Configuration, SaysOfAFileThatIsNoTextThatItIsNone) {
+TEST_F(ConfigurationTest, SaysOfAFileThatIsNoTextThatItIsNone) {
   EXPECT_THAT(file_message("[screens]\nSIMPLE \x01\x02\x7f"),
               EndsWith("my.cfg: line 2 is no text; give the path of a configuration file"));
 }
 
-TEST(Configuration, AMessageStaysOneLineWhateverTheFileHolds) {
+TEST_F(ConfigurationTest, AMessageStaysOneLineWhateverTheFileHolds) {
   const std::string message = file_message("\t" + std::string(100000, 'x') + "= \r 5");
   EXPECT_THAT(message, AllOf(HasSubstr("unknown key"), Not(HasSubstr("\r"))));
   EXPECT_LT(message.size(), 1000u);
 }
 
-TEST(Configuration, ADumpReadsBackEqual) {
+TEST_F(ConfigurationTest, ADumpReadsBackEqual) {
   Configuration paper;
   paper.apply_preset("paper");
   Configuration changed;
@@ -343,7 +337,7 @@ TEST(Configuration, ADumpReadsBackEqual) {
   EXPECT_NE(changed, Configuration());
 }
 
-TEST(Configuration, ADumpDocumentsEveryKey) {
+TEST_F(ConfigurationTest, ADumpDocumentsEveryKey) {
   const std::string dump = Configuration().dump();
   for (const ConfigurationKey& key : configuration_keys()) {
     EXPECT_THAT(dump, HasSubstr("# " + key.description + "\n"));
