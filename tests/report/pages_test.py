@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 SKIPPED = 77
@@ -142,18 +143,23 @@ class PagesTest(unittest.TestCase):
         self.devtools("Emulation.setEmulatedMedia",
                       features=[{"name": "prefers-color-scheme", "value": scheme}])
 
+    def misfits(self):
+        """The charts that are not as wide as their places."""
+        return self.script(
+            "return [...document.querySelectorAll('.chart')].filter((chart) =>"
+            " chart.clientWidth > 0 && Math.abs(chart._fullLayout.width - chart.clientWidth) > 1)"
+            ".map((chart) => chart._fullLayout.width + ' in ' + chart.clientWidth)")
+
     def settle(self):
         """Waits for what the page draws when its size or its colours have changed, and until its
         charts are as wide as their places: Plotly follows a new size only after a while."""
         self.browser.execute_async_script(
             "const done = arguments[0];"
             "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0)))")
-        WebDriverWait(self.browser, PATIENCE, poll_frequency=0.05).until(
-            lambda _: self.script(
-                "return [...document.querySelectorAll('.chart')].every((chart) =>"
-                " chart.clientWidth === 0 ||"
-                " Math.abs(chart._fullLayout.width - chart.clientWidth) <= 1)"),
-            "there are charts that are not as wide as their places")
+        end = time.monotonic() + PATIENCE
+        while (misfits := self.misfits()) and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(misfits, [])
 
     def screenshot(self):
         """The page from its start, at most two screens of it."""
