@@ -119,42 +119,47 @@ std::span<const DesignProperty> design_properties() {
   using enum Scale;
   using Design = SensorDesign;
   static constexpr std::array properties{
-      DesignProperty{"pupil_pixels", integer, linear,
+      DesignProperty{"pupil_pixels", integer, linear, "",
                      [](const Design& d) { return double(d.detector.pupil_pixels); },
                      [](Design& d, double v) { d.detector.pupil_pixels = int(std::lround(v)); }},
-      DesignProperty{"detector_window", continuous, linear,
+      DesignProperty{"detector_window", continuous, linear, "",
                      [](const Design& d) { return d.detector.window; },
                      [](Design& d, double v) { d.detector.window = v; }},
-      DesignProperty{"reconstruction_window", continuous, linear,
+      DesignProperty{"reconstruction_window", continuous, linear, "",
                      [](const Design& d) { return d.reconstruction.window; },
                      [](Design& d, double v) { d.reconstruction.window = v; }},
-      DesignProperty{"relaxation", continuous, linear,
+      DesignProperty{"relaxation", continuous, linear, "",
                      [](const Design& d) { return d.reconstruction.relaxation_start; },
                      [](Design& d, double v) {
                        d.reconstruction.relaxation_start = d.reconstruction.relaxation_end = v;
                      }},
-      DesignProperty{"relaxation_start", continuous, linear,
+      DesignProperty{"relaxation_start", continuous, linear, "",
                      [](const Design& d) { return d.reconstruction.relaxation_start; },
                      [](Design& d, double v) { d.reconstruction.relaxation_start = v; }},
-      DesignProperty{"relaxation_end", continuous, linear,
+      DesignProperty{"relaxation_end", continuous, linear, "",
                      [](const Design& d) { return d.reconstruction.relaxation_end; },
                      [](Design& d, double v) { d.reconstruction.relaxation_end = v; }},
-      DesignProperty{"initial_guess", categorical, linear,
+      DesignProperty{"initial_guess", categorical, linear, "",
                      [](const Design& d) { return double(d.reconstruction.initial_guess); },
                      [](Design& d, double v) {
                        d.reconstruction.initial_guess = static_cast<InitialGuess>(std::lround(v));
                      }},
       DesignProperty{
-          "reconstruction_oversampling", integer, linear,
+          "reconstruction_oversampling", integer, linear, "",
           [](const Design& d) { return double(d.reconstruction.oversampling); },
           [](Design& d, double v) { d.reconstruction.oversampling = int(std::lround(v)); }},
-      DesignProperty{"tolerance", continuous, logarithmic,
+      DesignProperty{"tolerance", continuous, logarithmic, "m",
                      [](const Design& d) { return d.reconstruction.tolerance; },
                      [](Design& d, double v) { d.reconstruction.tolerance = v; }},
-      DesignProperty{"exposure", continuous, logarithmic,
+      DesignProperty{"exposure", continuous, logarithmic, "s",
                      [](const Design& d) { return d.detector.exposure; },
                      [](Design& d, double v) { d.detector.exposure = v; }}};
   return properties;
+}
+
+std::string_view unit_of_variable(std::string_view name) {
+  if (const DesignProperty* property = find_property(name)) return property->unit;
+  return name == "order" ? "" : "m";
 }
 
 std::vector<VisitingOrder> all_orders(int planes) {

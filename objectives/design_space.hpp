@@ -35,6 +35,7 @@ struct DesignProperty {
   std::string_view name;  ///< as the sections search and sweep have it
   VariableKind kind;      ///< integer: ranges are of whole numbers; categorical: lists only
   Scale scale;            ///< of ranges, unless they have their own
+  std::string_view unit;  ///< SI; empty for what has none
   double (*get)(const SensorDesign&);  ///< in SI; the place among the words of a categorical one
   void (*set)(SensorDesign&, double);  ///< the inverse of get
 };
@@ -43,6 +44,10 @@ struct DesignProperty {
 /// alike), relaxation_start, relaxation_end, initial_guess (0 flat, 1 centroid),
 /// reconstruction_oversampling, tolerance, exposure.
 std::span<const DesignProperty> design_properties();
+
+/// The unit of a variable of the sections search and sweep: "m", "s", or empty for what has none.
+/// @param name  of a design property, "order", or a plane's or pair's distance
+std::string_view unit_of_variable(std::string_view name);
 
 /// How planes are placed.
 enum class Layout {

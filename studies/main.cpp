@@ -1,17 +1,17 @@
 #include "model/input_error.hpp"
-#include "results/output_folder.hpp"
-#include "studies/as_typed.hpp"
-#include "studies/command_line.hpp"
-#include "studies/commands.hpp"
-#include "studies/help_text.hpp"
-#include "studies/interrupt.hpp"
-#include "studies/log.hpp"
-#include "studies/ranks.hpp"
-#include "studies/report_study.hpp"
-#include "studies/run_record.hpp"
-#include "studies/settings.hpp"
-#include "studies/text.hpp"
-#include "studies/version.hpp"
+#include "results/archive/output_folder.hpp"
+#include "studies/command_line/as_typed.hpp"
+#include "studies/command_line/command_line.hpp"
+#include "studies/command_line/commands.hpp"
+#include "studies/command_line/help_text.hpp"
+#include "studies/commands/report.hpp"
+#include "studies/ranks/ranks.hpp"
+#include "studies/run/interrupt.hpp"
+#include "studies/run/log.hpp"
+#include "studies/run/run_record.hpp"
+#include "studies/run/version.hpp"
+#include "studies/settings/setup.hpp"
+#include "studies/settings/text.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -47,7 +47,7 @@ void run(nlcwfs::CommandLine& command_line, const nlcwfs::Ranks& ranks) {
   if (command_line.resume && is_complete(*command_line.resume)) {
     // The page comes last.
     if (!std::filesystem::exists(*command_line.resume / "report.html")) {
-      write_report(*command_line.resume);
+      write_page(*command_line.resume);
     }
     fmt::print("{} is complete, nothing is left to do.\n", command_line.resume->string());
     return;

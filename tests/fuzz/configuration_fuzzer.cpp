@@ -1,6 +1,6 @@
-#include "studies/configuration.hpp"
-#include "studies/settings.hpp"
-#include "studies/sweep_grid.hpp"
+#include "studies/settings/configuration.hpp"
+#include "studies/settings/setup.hpp"
+#include "studies/settings/sweep_grid.hpp"
 #include "tests/fuzz/fuzzer.hpp"
 #include "tests/fuzz/memory_file.hpp"
 

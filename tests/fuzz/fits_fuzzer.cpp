@@ -1,4 +1,4 @@
-#include "results/fits_cube.hpp"
+#include "results/fits/fits_cube.hpp"
 #include "tests/fuzz/fuzzer.hpp"
 #include "tests/fuzz/memory_file.hpp"
 

@@ -1,5 +1,5 @@
-#include "studies/law_file.hpp"
-#include "studies/report_data.hpp"
+#include "studies/run/page_data.hpp"
+#include "studies/settings/law_file.hpp"
 #include "tests/fuzz/fuzzer.hpp"
 
 #include <cstdlib>
@@ -55,7 +55,7 @@ void read_summary(std::string_view text) {
   static const RunFolder folder;
   is_accepted([&] {
     // As a page has it.
-    report_data(folder.with_summary(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
+    page_data(folder.with_summary(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
   });
 }
 

@@ -1,4 +1,4 @@
-#include "results/fits_cube.hpp"
+#include "results/fits/fits_cube.hpp"
 #include "tests/studies/program.hpp"
 
 #include <gmock/gmock.h>

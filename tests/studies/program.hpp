@@ -1,7 +1,7 @@
 #pragma once
 
-#include "results/output_folder.hpp"
-#include "studies/commands.hpp"
+#include "results/archive/output_folder.hpp"
+#include "studies/command_line/commands.hpp"
 #include "tests/paths.hpp"
 #include "tests/scratch_folder.hpp"
 

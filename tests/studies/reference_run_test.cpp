@@ -2,9 +2,9 @@
 // points. Where a change of the physics is meant, the reference is made anew
 // (results/reference/README.md).
 
-#include "results/csv_table.hpp"
-#include "studies/reproduction_plan.hpp"
-#include "studies/settings.hpp"
+#include "results/tables/csv_table.hpp"
+#include "studies/reproduction/plan.hpp"
+#include "studies/settings/setup.hpp"
 #include "tests/paths.hpp"
 
 #include <algorithm>

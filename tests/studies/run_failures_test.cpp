@@ -2,10 +2,10 @@
 // or whose trials another run takes over.
 
 #include "objectives/design_space.hpp"
-#include "results/archive.hpp"
-#include "results/design_summary.hpp"
-#include "results/folder_lock.hpp"
-#include "studies/settings.hpp"
+#include "results/archive/archive.hpp"
+#include "results/archive/folder_lock.hpp"
+#include "results/tables/design_summary.hpp"
+#include "studies/settings/setup.hpp"
 #include "tests/sqlite_query.hpp"
 #include "tests/studies/program.hpp"
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "objectives/design_trial.hpp"
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace nlcwfs {
+
+/// A tried design as every summary has it: the design (in Talbot distances of the first condition's
+/// Fried parameter, and in its light), its cost, violation and performance, pooled over the
+/// conditions; where there are several, `conditions` has each one's name, D/r0, photons and
+/// performance.
+nlohmann::ordered_json to_json(const TriedDesign& tried, const DesignTrial& trial);
+
+/// For people, where there are several conditions: which, and how the design did under each; empty
+/// where there is one.
+std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial);
+
+/// For people, a line for each limit that the design breaks under a condition; empty without any.
+std::string limits_text(const TriedDesign& tried, const DesignTrial& trial);
+
+/// One line for each screen, one column for each metric, as CSV.
+std::string screens_table(const Performance& performance);
+
+}  // namespace nlcwfs

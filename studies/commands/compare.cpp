@@ -1,0 +1,376 @@
+#include "model/input_error.hpp"
+#include "objectives/design_comparison.hpp"
+#include "results/archive/archive.hpp"
+#include "results/pictures/grid_picture.hpp"
+#include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
+#include "results/tables/json_text.hpp"
+#include "results/tables/text_file.hpp"
+#include "results/tables/trial_summary.hpp"
+#include "results/text/design_text.hpp"
+#include "results/text/quantity_text.hpp"
+#include "studies/commands/run_functions.hpp"
+#include "studies/run/run_record.hpp"
+#include "studies/search/verified_ranking.hpp"
+#include "studies/settings/setup.hpp"
+#include "studies/settings/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a finished run left in its folder.
+struct FinishedRun {
+  std::filesystem::path folder;
+  Configuration configuration = {};
+  Json summary = {};
+  SensorDesign best = {};
+  int designs = 0;
+  std::int64_t reconstructions = 0;  ///< without those of the verification
+  double seconds = 0.0;
+};
+
+/// @param argument  name of the command line's argument: "SWEEP"
+/// @param command   that must have made the folder
+FinishedRun finished_run(const std::string& argument, const std::string& command,
+                         const std::filesystem::path& folder) {
+  const std::string shown = one_line(folder.string());
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError(argument, shown,
+                     fmt::format("there is no such folder; name that of a finished {}", command));
+  }
+  if (!std::filesystem::is_regular_file(folder / "config.cfg")) {
+    throw InputError(argument, shown,
+                     fmt::format("has no config.cfg; name the folder of a finished {}", command));
+  }
+  if (!std::filesystem::is_regular_file(folder / "summary.json")) {
+    throw InputError(argument, shown,
+                     fmt::format("has no summary.json: the run is not finished; give that of a "
+                                 "finished {}",
+                                 command));
+  }
+  FinishedRun run{.folder = folder};
+  run.configuration.read_file(folder / "config.cfg");
+  try {
+    run.summary = json_of(text_of_file(folder / "summary.json"));
+    if (!run.summary.is_object()) throw std::runtime_error("it is no JSON object");
+    const std::string made_by = run.summary.at("command");
+    if (made_by != command) {
+      throw InputError(argument, shown,
+                       fmt::format("is a run of {}; give first the folder of a sweep, then that of "
+                                   "an optimize",
+                                   made_by));
+    }
+    run.best = design_from_json(run.summary.at("best"));
+    run.designs = integer_from_json(run.summary.at("evaluations"));
+    if (run.summary.contains("cheap_evaluations")) {
+      run.designs += integer_from_json(run.summary.at("cheap_evaluations"));
+    }
+    run.reconstructions = run.summary.at("search_reconstructions");
+    run.seconds = run.summary.at("search_seconds");
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(
+        fmt::format("cannot read {}: {}", (folder / "summary.json").string(), error.what()));
+  }
+  return run;
+}
+
+/// A key of the design with the properties by which a grid or a search may decide on it.
+struct DesignKey {
+  std::string_view key;
+  std::vector<std::string_view> properties;
+};
+
+const std::vector<DesignKey>& design_keys() {
+  static const std::vector<DesignKey> keys{
+      {"detector.pupil_pixels", {"pupil_pixels"}},
+      {"detector.window", {"detector_window"}},
+      {"reconstruction.window", {"reconstruction_window"}},
+      {"reconstruction.relaxation", {"relaxation", "relaxation_start", "relaxation_end"}},
+      {"reconstruction.initial_guess", {"initial_guess"}},
+      {"reconstruction.oversampling", {"reconstruction_oversampling"}},
+      {"reconstruction.tolerance", {"tolerance"}},
+      {"detector.exposure", {"exposure"}}};
+  return keys;
+}
+
+bool decides_on(const FinishedRun& run, std::string_view section, std::string_view key) {
+  const auto found = std::ranges::find(design_keys(), key, &DesignKey::key);
+  return found != design_keys().end() &&
+         std::ranges::any_of(found->properties, [&](std::string_view property) {
+           return run.configuration.is_set(fmt::format("{}.{}", section, property));
+         });
+}
+
+/// Whether designs of equal costs would have others under another value of the key.
+bool changes_the_comparison(std::string_view key) {
+  return key.starts_with("telescope.") || key.starts_with("seeing.") ||
+         key.starts_with("detector.") || key.starts_with("reconstruction.") ||
+         key.starts_with("objective.") || key.starts_with("source.") || key == "simulation.truth" ||
+         key == "simulation.pupil_samples";
+}
+
+/// A key's value such that equal values are equal texts.
+std::string canonical(const Configuration& configuration, const ConfigurationKey& key) {
+  if (!configuration.is_set(key.name)) return "not set";
+  switch (key.kind) {
+    case Kind::number:
+      return fmt::format("{}", configuration.number(key.name));
+    case Kind::number_list:
+      return fmt::format("{}", fmt::join(configuration.numbers(key.name), ","));
+    case Kind::length:
+      return fmt::format("{}", configuration.length(key.name));
+    case Kind::length_list:
+      return fmt::format("{}", fmt::join(configuration.lengths(key.name), ","));
+    case Kind::bands: {
+      std::string text;
+      for (const Band& band : configuration.bands(key.name)) {
+        text += fmt::format("{}:{},", band.shortest, band.longest);
+      }
+      return text;
+    }
+    case Kind::time:
+      return fmt::format("{}", *configuration.optional_time(key.name));
+    case Kind::ramp:
+      return fmt::format("{}", configuration.ramp(key.name));
+    default:
+      return configuration.value_text(key.name);
+  }
+}
+
+std::string value_or_not_set(const Configuration& configuration, std::string_view key) {
+  return configuration.is_set(key) ? configuration.value_text(key) : "not set";
+}
+
+/// Whether two configurations mean the same seeing, whichever measure of it they give.
+bool is_same_seeing(const Configuration& a, const Configuration& b) {
+  const auto is_same = [](const Seeing& one, const Seeing& other) {
+    return one.fried_parameter == other.fried_parameter && one.outer_scale == other.outer_scale;
+  };
+  return std::ranges::equal(seeings_of(a, telescope_of(a)), seeings_of(b, telescope_of(b)),
+                            is_same);
+}
+
+/// @throws InputError with every key in which the runs must not differ but do
+void require_comparable(const FinishedRun& sweep, const FinishedRun& optimize) {
+  const bool same_seeing = is_same_seeing(sweep.configuration, optimize.configuration);
+  std::vector<std::string> differences;
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (!changes_the_comparison(key.name) || decides_on(sweep, "sweep", key.name) ||
+        decides_on(optimize, "search", key.name) ||
+        (same_seeing && key.name.starts_with("seeing.")) ||
+        canonical(sweep.configuration, key) == canonical(optimize.configuration, key)) {
+      continue;
+    }
+    differences.push_back(fmt::format("{} ({} and {})", key.name,
+                                      value_or_not_set(sweep.configuration, key.name),
+                                      value_or_not_set(optimize.configuration, key.name)));
+  }
+  if (differences.empty()) return;
+  throw InputError("OPTIMIZE", one_line(optimize.folder.string()),
+                   fmt::format("was not configured as the sweep {}; they differ in {}",
+                               one_line(sweep.folder.string()), fmt::join(differences, ", ")));
+}
+
+/// The sweep's configuration with the section verify of the command line, and screens that neither
+/// run has seen.
+Configuration comparison_configuration(const Configuration& given, const FinishedRun& sweep,
+                                       const FinishedRun& optimize) {
+  constexpr std::array verification{"verify.screens", "verify.seed", "verify.truth_factor"};
+  Configuration configuration = sweep.configuration;
+  const auto is_given = [&](std::string_view key) {
+    return given.source(key) != Configuration().source(key);
+  };
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (!changes_the_comparison(key.name) || !is_given(key.name) ||
+        canonical(given, key) == canonical(configuration, key)) {
+      continue;
+    }
+    throw InputError(key.name, value_or_not_set(given, key.name),
+                     fmt::format("compare takes it from the sweep, where it is {}; leave it away",
+                                 value_or_not_set(configuration, key.name)));
+  }
+  for (const char* key : verification) {
+    if (is_given(key)) configuration.set(key, given.value_text(key), given.source(key));
+  }
+
+  std::set<std::uint64_t> seen;
+  for (const FinishedRun* run : {&sweep, &optimize}) {
+    for (const char* key : {"screens.seed", "verify.seed"}) {
+      seen.insert(run->configuration.seed(key));
+    }
+  }
+  std::uint64_t seed = configuration.seed("verify.seed");
+  if (is_given("verify.seed")) {
+    if (seen.contains(seed)) {
+      throw InputError("verify.seed", seed,
+                       "another seed than those of the two runs, which have seen its screens");
+    }
+    return configuration;
+  }
+  while (seen.contains(seed)) ++seed;
+  configuration.set("verify.seed", fmt::format("{}", seed), "by compare, for fresh screens");
+  return configuration;
+}
+
+/// Whether designs that a run compared differed in their pixels across the pupil.
+bool pixels_vary(const FinishedRun& sweep, const FinishedRun& optimize) {
+  const auto swept = sweep.configuration.axis("sweep.pupil_pixels");
+  const auto searched = optimize.configuration.domain("search.pupil_pixels");
+  const auto* list = searched ? std::get_if<std::vector<double>>(&*searched) : nullptr;
+  return (swept && swept->size() > 1) || (list != nullptr && list->size() > 1) ||
+         sweep.best.detector.pupil_pixels != optimize.best.detector.pupil_pixels;
+}
+
+/// The designs that a search tried, over the sweep's map of the cost.
+/// @return why there is no picture; nothing where there is one
+std::optional<std::string> write_path_picture(const FinishedRun& sweep, const FinishedRun& optimize,
+                                              const Telescope& telescope, const Seeing& seeing,
+                                              const OutputFolder& folder) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  SearchPath path{.designs = {}, .best = {optimize.best, nan}};
+  const Archive archive = Archive::reopened(optimize.folder / "archive.sqlite");
+  for (const ArchivedEvaluation& evaluation : archive.evaluations()) {
+    if (evaluation.stage != "search" || !evaluation.failure.empty()) continue;
+    path.designs.push_back({design_from_json(json_of(evaluation.design)), evaluation.cost});
+    if (path.designs.back().design.planes == optimize.best.planes) {
+      path.best.cost = evaluation.cost;
+    }
+  }
+  return write_grid_picture(picture_title(telescope, seeing), sweep.summary.at("grid"), "cost",
+                            {sweep.best, nan}, folder.file("path"), path);
+}
+
+std::string_view verdict_word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::better:
+      return "better";
+    case Verdict::indistinguishable:
+      return "indistinguishable";
+    case Verdict::worse:
+      break;
+  }
+  return "worse";
+}
+
+std::string verdict_text(const Improvement& gain, double sweep_cost) {
+  switch (gain.verdict) {
+    case Verdict::better:
+      return fmt::format(
+          "The optimizer's design beats the sweep's: it costs {} less ({:.1f} %), "
+          "screen by screen.",
+          with_error(gain.cost), 100.0 * gain.cost.mean / sweep_cost);
+    case Verdict::indistinguishable:
+      return fmt::format(
+          "The two designs cannot be told apart: the sweep's cost minus the optimizer's is {}, "
+          "which may well be chance.",
+          with_error(gain.cost));
+    case Verdict::worse:
+      break;
+  }
+  return fmt::format(
+      "The sweep's design beats the optimizer's, which costs {} more ({:.1f} %), "
+      "screen by screen.",
+      with_error({-gain.cost.mean, gain.cost.standard_error}),
+      -100.0 * gain.cost.mean / sweep_cost);
+}
+
+Json effort_object(const FinishedRun& run) {
+  return {
+      {"designs", run.designs}, {"reconstructions", run.reconstructions}, {"seconds", run.seconds}};
+}
+
+}  // namespace
+
+void run_compare(const CommandLine& command_line) {
+  const FinishedRun sweep = finished_run("SWEEP", "sweep", command_line.arguments.at(0));
+  const FinishedRun optimize = finished_run("OPTIMIZE", "optimize", command_line.arguments.at(1));
+  require_comparable(sweep, optimize);
+  CommandLine compared = command_line;
+  compared.configuration = comparison_configuration(command_line.configuration, sweep, optimize);
+  const Configuration& configuration = compared.configuration;
+  const Telescope telescope = telescope_of(configuration);
+  const Seeing seeing = seeing_of(configuration, telescope);
+  DesignTrial trial = verification_trial_of(configuration, pixels_vary(sweep, optimize));
+  trial.run_on(command_line.runner);
+  for (const FinishedRun* run : {&sweep, &optimize}) (void)trial.checked(run->best);
+  RunRecord record(compared);
+
+  TriedDesign swept;
+  TriedDesign found;
+  {
+    Progress progress = verification_progress(trial, 2);
+    swept = verified_design(sweep.best, trial, record.archive(), interruptible(progress));
+    found = verified_design(optimize.best, trial, record.archive(), interruptible(progress));
+  }
+  const std::size_t screens = std::min(swept.costs.size(), found.costs.size());
+  swept = trial.on_first_screens(std::move(swept), screens);
+  found = trial.on_first_screens(std::move(found), screens);
+  record.note_missing_screens(found, trial);
+  const Improvement gain = improvement(found, swept);
+  const double designs_ratio = double(sweep.designs) / optimize.designs;
+  const double reconstructions_ratio =
+      double(sweep.reconstructions) / double(optimize.reconstructions);
+  const double seconds_ratio = sweep.seconds / optimize.seconds;
+  try {
+    if (const auto reason =
+            write_path_picture(sweep, optimize, telescope, seeing, record.folder())) {
+      fmt::print("note: there is no path.svg: {}\n", *reason);
+    }
+  } catch (const std::exception& error) {
+    fmt::print("note: there is no path.svg: {}\n", error.what());
+  }
+  record.write_summary(
+      {{"sweep", to_json(swept, trial)},
+       {"optimize", to_json(found, trial)},
+       {"difference", to_json(MeanAndError{-gain.cost.mean, gain.cost.standard_error})},
+       {"verdict", verdict_word(gain.verdict)},
+       {"cost",
+        {{"sweep", effort_object(sweep)},
+         {"optimize", effort_object(optimize)},
+         {"sweep_per_optimize",
+          {{"designs", designs_ratio},
+           {"reconstructions", reconstructions_ratio},
+           {"seconds", seconds_ratio}}}}}});
+
+  const Performance swept_performance = pooled(swept.performances);
+  const Performance found_performance = pooled(found.performances);
+  fmt::print("{}\n\n", telescope_line(telescope, seeing));
+  fmt::print("Best of the sweep {}, planes in visiting order:\n{}\n", sweep.folder.string(),
+             planes_table(swept.design, telescope, seeing, &swept_performance));
+  fmt::print("Best of the optimizer {}:\n{}\n", optimize.folder.string(),
+             planes_table(found.design, telescope, seeing, &found_performance));
+  fmt::print(
+      "Both on the same {} screens of seed {}, which neither has seen, true field {} "
+      "samples across the pupil:\n{}",
+      screens, configuration.seed("verify.seed"),
+      trial.conditions().front().simulation->truth_samples(),
+      performance_table({{"sweep", &swept_performance, swept.costs},
+                         {"optimize", &found_performance, found.costs}}));
+  fmt::print("\n{}\n\n", verdict_text(gain, mean_and_standard_error(swept.costs).mean));
+  fmt::print("  {:<22} {:>14} {:>14} {:>10}\n", "what finding it took", "sweep", "optimize",
+             "ratio");
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "designs", sweep.designs, optimize.designs,
+             designs_ratio);
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "reconstructions", sweep.reconstructions,
+             optimize.reconstructions, reconstructions_ratio);
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n\n", "time", duration_text(sweep.seconds),
+             duration_text(optimize.seconds), seconds_ratio);
+  record.close();
+}
+
+}  // namespace nlcwfs

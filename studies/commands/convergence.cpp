@@ -1,0 +1,167 @@
+#include "model/input_error.hpp"
+#include "results/pictures/curve_picture.hpp"
+#include "results/tables/csv_table.hpp"
+#include "results/tables/design_summary.hpp"
+#include "results/tables/trial_summary.hpp"
+#include "results/text/design_text.hpp"
+#include "studies/commands/run_functions.hpp"
+#include "studies/run/progress.hpp"
+#include "studies/run/run_record.hpp"
+#include "studies/settings/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double nm = 1e-9;
+
+/// The residual WFE of the wavefronts after one loop, nm.
+struct LoopResiduals {
+  std::vector<double> screens;
+  MeanAndError mean = {};
+  double standard_deviation = 0.0;
+};
+
+/// @param performance  whose loops were followed, all of them as many
+std::vector<LoopResiduals> residuals_of(const Performance& performance) {
+  std::vector<LoopResiduals> loops(performance.screens.front().residual_after_loops.size());
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    for (const ScreenPerformance& screen : performance.screens) {
+      loops[loop].screens.push_back(screen.residual_after_loops[loop] / nm);
+    }
+    loops[loop].mean = mean_and_standard_error(loops[loop].screens);
+    loops[loop].standard_deviation =
+        loops[loop].mean.standard_error * std::sqrt(double(performance.screens.size()));
+  }
+  return loops;
+}
+
+std::string table_of(const std::vector<LoopResiduals>& loops) {
+  std::vector<std::string> columns{"loop", "residual_wfe_nm", "standard_error_nm",
+                                   "standard_deviation_nm"};
+  for (std::size_t screen = 0; screen < loops.front().screens.size(); ++screen) {
+    columns.push_back(fmt::format("screen_{}_nm", screen));
+  }
+  CsvTable table(columns);
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    table.row()
+        .add(double(loop + 1))
+        .add(loops[loop].mean.mean)
+        .add(loops[loop].mean.standard_error)
+        .add(loops[loop].standard_deviation);
+    for (const double value : loops[loop].screens) table.add(value);
+  }
+  return table.text();
+}
+
+Json residuals_object(const std::vector<LoopResiduals>& loops) {
+  Json object{{"mean", Json::array()},
+              {"standard_error", Json::array()},
+              {"standard_deviation", Json::array()},
+              {"screens", Json::array()}};
+  for (const LoopResiduals& loop : loops) {
+    object["mean"].push_back(loop.mean.mean);
+    object["standard_error"].push_back(loop.mean.standard_error);
+    object["standard_deviation"].push_back(loop.standard_deviation);
+    object["screens"].push_back(loop.screens);
+  }
+  return object;
+}
+
+CurvePicture picture_of(const std::vector<LoopResiduals>& loops, const std::string& title) {
+  CurvePicture picture{.title = title,
+                       .x_label = "loops",
+                       .y_label = "residual WFE, nm",
+                       .curves = {},
+                       .has_log_y = true};
+  std::vector<double> numbers;
+  Curve mean{.label = "mean"};
+  for (const LoopResiduals& loop : loops) {
+    numbers.push_back(double(numbers.size() + 1));
+    mean.y.push_back(loop.mean.mean);
+  }
+  mean.x = numbers;
+  for (std::size_t screen = 0; screen < loops.front().screens.size(); ++screen) {
+    Curve curve{.label = screen == 0 ? "each wavefront" : "", .x = numbers, .is_pale = true};
+    for (const LoopResiduals& loop : loops) curve.y.push_back(loop.screens[screen]);
+    picture.curves.push_back(std::move(curve));
+  }
+  picture.curves.push_back(std::move(mean));
+  return picture;
+}
+
+/// Loops that double up, and the last.
+std::string loops_text(const std::vector<LoopResiduals>& loops) {
+  std::string text =
+      "After each loop, as far as it goes:\n   loops    residual WFE, nm   "
+      "standard deviation, nm\n";
+  for (std::size_t loop = 1; loop <= loops.size(); ++loop) {
+    const bool is_power_of_two = (loop & (loop - 1)) == 0;
+    if (!is_power_of_two && loop != loops.size()) continue;
+    const LoopResiduals& residuals = loops[loop - 1];
+    text += fmt::format("  {:>6}  {:>18}   {:>22.4g}\n", loop, with_error(residuals.mean),
+                        residuals.standard_deviation);
+  }
+  return text;
+}
+
+}  // namespace
+
+void run_convergence(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  require_one_condition(configuration);
+  const Telescope telescope = telescope_of(configuration);
+  const Seeing seeing = seeing_of(configuration, telescope);
+  std::vector<std::string> notes;
+  DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
+  trial.run_on(command_line.runner);
+  const SensorDesign design = trial.checked(design_of(configuration));
+  RunRecord record(command_line);
+
+  const Simulation& simulation = *trial.conditions().front().simulation;
+  const int screens = trial.screen_count();
+  const Performance followed = [&] {
+    Progress progress("convergence", screens, "screens followed", "then to the tolerance",
+                      command_line.whole);
+    return simulation.follow(design, interruptible(progress));
+  }();
+  const TriedDesign tried = [&] {
+    Progress progress("convergence to the tolerance", screens, "screens", "", command_line.whole);
+    return trial.run(design, {}, interruptible(progress));
+  }();
+  if (const std::size_t done = std::min(followed.screens.size(), tried.costs.size());
+      static_cast<int>(done) < screens) {
+    record.note_interrupted(fmt::format("{} of {} screens were followed, {} to the tolerance",
+                                        followed.screens.size(), screens, tried.costs.size()));
+  }
+  const std::vector<LoopResiduals> loops = residuals_of(followed);
+  std::vector<double> aberrations = simulation.aberrations();
+  aberrations.resize(followed.screens.size());
+  for (double& aberration : aberrations) aberration /= nm;
+  record.folder().write("screens.csv", screens_table(tried.performances.front()));
+  record.folder().write("convergence.csv", table_of(loops));
+  const auto no_picture = write_picture(picture_of(loops, picture_title(telescope, seeing)),
+                                        record.folder().file("convergence"));
+  record.write_summary({{"design", to_json(tried, trial)},
+                        {"aberrations_nm", aberrations},
+                        {"residual_after_loops_nm", residuals_object(loops)}});
+
+  for (const std::string& note : notes) record.print("note: {}\n", note);
+  if (no_picture) record.print("note: there is no picture: {}\n", *no_picture);
+  const Performance& performance = tried.performances.front();
+  record.print("{}\n\n{}\n{}\n", telescope_line(telescope, seeing),
+               planes_table(design, telescope, seeing, &performance), loops_text(loops));
+  record.print("With reconstruction.tolerance = {}:\n{}\n",
+               configuration.value_text("reconstruction.tolerance"),
+               performance_table({{"mean +- standard error", &performance, tried.costs}}));
+  record.close();
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,113 @@
+#include "model/input_error.hpp"
+#include "results/archive/archive.hpp"
+#include "results/fits/fits_table.hpp"
+#include "results/tables/evaluation_table.hpp"
+#include "studies/commands/run_functions.hpp"
+#include "studies/run/run_record.hpp"
+#include "studies/settings/text.hpp"
+
+#include <map>
+#include <set>
+
+#include <boost/algorithm/string/split.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The evaluations of a run's folder or of an archive, see evaluation_list().
+/// @throws InputError where it is neither
+Json evaluations_of(const std::filesystem::path& run) {
+  const std::string shown = one_line(run.string());
+  const bool is_folder = std::filesystem::is_directory(run);
+  const std::filesystem::path path = is_folder ? run / "archive.sqlite" : run;
+  if (!std::filesystem::is_regular_file(path)) {
+    throw InputError("RUN", shown,
+                     fmt::format("{}; name the folder of a run, such as results/optimize-1, or its "
+                                 "archive.sqlite",
+                                 is_folder ? "has no archive.sqlite" : "there is no such file"));
+  }
+  std::vector<ArchivedEvaluation> evaluations;
+  try {
+    evaluations = Archive::reopened(path).evaluations();
+  } catch (const std::runtime_error&) {
+    throw InputError("RUN", shown,
+                     "is no archive of a run of this version; name the folder of a run, such as "
+                     "results/optimize-1");
+  }
+  try {
+    return evaluation_list(evaluations);
+  } catch (const std::runtime_error& error) {
+    throw InputError("RUN", shown,
+                     fmt::format("is no archive of evaluations: {}", one_line(error.what())));
+  }
+}
+
+/// The formats of export.formats.
+std::set<std::string> formats_of(const Configuration& configuration) {
+  const std::string& text = configuration.text("export.formats");
+  std::vector<std::string> words;
+  boost::split(words, text, [](char c) { return c == ','; });
+  std::set<std::string> formats;
+  for (const std::string& word : words) {
+    const std::string format(trimmed(word));
+    if (format != "csv" && format != "json" && format != "fits") {
+      throw InputError("export.formats", one_line(text), "a list of csv, json and fits");
+    }
+    if (!formats.insert(format).second) {
+      throw InputError("export.formats", one_line(text),
+                       fmt::format("each value once, but {} is twice", format));
+    }
+  }
+  return formats;
+}
+
+}  // namespace
+
+void run_export(const CommandLine& command_line) {
+  const std::set<std::string> formats = formats_of(command_line.configuration);
+  const std::filesystem::path source = command_line.arguments.at(0);
+  const Json list = evaluations_of(source);
+  const FlatTable table = evaluation_table(list);
+  RunRecord record(command_line);
+
+  std::vector<std::string> files;
+  for (const std::string& format : formats) {
+    files.push_back(fmt::format("evaluations.{}", format));
+    if (format == "fits") {
+      write_fits_table(record.folder().file(files.back()), table, "EVALUATIONS");
+    } else {
+      // Texts of a failure need not be UTF-8, which JSON is.
+      record.folder().write(files.back(),
+                            format == "csv"
+                                ? table.csv()
+                                : list.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    }
+  }
+  std::map<std::string, int> stages;
+  int failed = 0;
+  for (const Json& evaluation : list) {
+    ++stages[evaluation.at("stage")];
+    failed += evaluation.at("failure").is_null() ? 0 : 1;
+  }
+  record.write_summary({{"source", source.string()},
+                        {"evaluations", list.size()},
+                        {"stages", stages},
+                        {"failed", failed},
+                        {"columns", table.columns.size()},
+                        {"files", files}});
+
+  std::vector<std::string> counts;
+  for (const auto& [stage, count] : stages)
+    counts.push_back(fmt::format("{} {}", one_line(stage), count));
+  record.print("{} evaluations of {}{}, {} of them failed\n", list.size(),
+               one_line(source.string()),
+               counts.empty() ? "" : fmt::format(" ({})", fmt::join(counts, ", ")), failed);
+  record.print("{}: {} columns each\n\n", fmt::join(files, ", "), table.columns.size());
+  record.close();
+}
+
+}  // namespace nlcwfs

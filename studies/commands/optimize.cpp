@@ -1,0 +1,186 @@
+#include "results/pictures/search_pictures.hpp"
+#include "results/tables/design_summary.hpp"
+#include "results/tables/trial_summary.hpp"
+#include "results/text/design_text.hpp"
+#include "results/text/quantity_text.hpp"
+#include "studies/commands/run_functions.hpp"
+#include "studies/run/run_record.hpp"
+#include "studies/run/stopwatch.hpp"
+#include "studies/search/closer_look.hpp"
+#include "studies/search/design_search.hpp"
+#include "studies/settings/setup.hpp"
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ranges_object(const DesignSearchResult& result) {
+  Json ranges = Json::object();
+  for (const OptimumRange& range : result.ranges) {
+    ranges[range.name] = {{"best", range.best},
+                          {"least", range.least},
+                          {"greatest", range.greatest},
+                          {"least_is_bound", range.least_is_bound},
+                          {"greatest_is_bound", range.greatest_is_bound}};
+  }
+  return ranges;
+}
+
+Json stages_array(const SearchResult& result) {
+  Json stages = Json::array();
+  for (const SearchStage& stage : result.stages) {
+    stages.push_back({{"name", stage.name}, {"evaluations", stage.evaluations}});
+  }
+  return stages;
+}
+
+/// How the search ended, for people.
+std::string_view ending_text(Termination termination) {
+  switch (termination) {
+    case Termination::converged:
+      return "until nothing got better";
+    case Termination::target_reached:
+      return "until search.target was reached";
+    case Termination::stagnated:
+      return "until search.stagnation designs in a row were no better";
+    case Termination::budget_exhausted:
+      return "all that search.budget allows";
+    case Termination::time_limit:
+      return "until search.time_limit";
+    case Termination::stop_requested:
+      break;
+  }
+  return "until it was interrupted";
+}
+
+std::string search_text(const DesignSearch& task, const DesignSearchResult& result,
+                        std::string_view precision) {
+  const std::size_t conditions = task.trial.conditions().size();
+  std::string text = fmt::format(
+      "Tried {} designs on {} screens{} in {} precision in {}, {}", result.search.evaluations,
+      task.trial.screen_count(),
+      conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "", precision,
+      duration_text(result.search_seconds), ending_text(result.search.termination));
+  if (result.cheap_evaluations > 0) {
+    text += fmt::format("; before that {} in the cheap search", result.cheap_evaluations);
+  }
+  if (result.search.failures > 0) {
+    text += fmt::format("; {} of them failed, see search.csv", result.search.failures);
+  }
+  text += ".\n";
+  if (result.given_up > 0) {
+    text += fmt::format(
+        "{} clearly worse ones were given up after their first screens, which saved {} of {} "
+        "reconstructions.\n",
+        result.given_up, result.saved_reconstructions,
+        result.saved_reconstructions + result.search_reconstructions);
+  }
+  return text;
+}
+
+/// How far the best design's variables may move.
+std::string ranges_text(const DesignSearch& task, const DesignSearchResult& result) {
+  if (result.ranges.empty()) {
+    return result.interrupted_when.empty()
+               ? ""
+               : "Interrupted: how far each variable may move is not known.\n\n";
+  }
+  std::string text =
+      fmt::format("Moved alone, each variable is as good on {} fresh screens (Student's t, 5 %):\n",
+                  task.scan.screen_count());
+  for (const OptimumRange& range : result.ranges) {
+    const auto shown = [&](double value) { return variable_text(range.name, value); };
+    // With its value, since the pair that a search calls near may be the farther one.
+    text += fmt::format("  {:<28} {:>10}: {:>10} to {}", range.name, shown(range.best),
+                        shown(range.least), shown(range.greatest));
+    if (range.least_is_bound && range.greatest_is_bound) {
+      text += ", all that was searched";
+    } else if (range.least_is_bound || range.greatest_is_bound) {
+      text += fmt::format("; {} is the end of what was searched",
+                          shown(range.least_is_bound ? range.least : range.greatest));
+    }
+    text += '\n';
+  }
+  return text + '\n';
+}
+
+void print_result(const DesignSearch& task, const DesignSearchResult& result,
+                  std::string_view precision, const std::vector<std::string>& notes) {
+  const TriedDesign& best = result.best();
+  const Performance best_performance = pooled(best.performances);
+  const Performance baseline_performance = pooled(result.baseline.performances);
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
+  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing),
+             search_text(task, result, precision));
+  fmt::print("Best design, planes in visiting order:\n{}{}\n",
+             planes_table(best.design, task.telescope, task.seeing, &best_performance),
+             choices_text(task.space, best.design));
+  fmt::print("Baseline:\n{}\n", planes_table(result.baseline.design, task.telescope, task.seeing,
+                                             &baseline_performance));
+  fmt::print("Both on the same {} fresh screens, true field {} samples across the pupil:\n{}",
+             result.best().costs.size(),
+             task.verification.conditions().front().simulation->truth_samples(),
+             performance_table({{"best design", &best_performance, best.costs},
+                                {"baseline", &baseline_performance, result.baseline.costs}}));
+  fmt::print("{}\n{}{}", conditions_table(best, task.verification),
+             ranking_text(result.ranking, "The search"), ranges_text(task, result));
+  fmt::print(
+      "{}\n{}{}",
+      baseline_verdict_text(result.gain, mean_and_standard_error(result.baseline.costs).mean),
+      limits_text(best, task.verification),
+      captured_energy_warnings(best.design, best_performance));
+}
+
+}  // namespace
+
+void run_optimize(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  const Stopwatch stopwatch;
+  DesignSearch task(configuration);
+  RunRecord record(command_line);
+  for (DesignTrial* trial : task.trials()) record.adopt(*trial);
+  const DesignSearchResult result = task.run(record.archive());
+  if (!result.interrupted_when.empty()) record.note_interrupted(result.interrupted_when);
+
+  Configuration best_configuration = configuration;
+  set_design(best_configuration, result.best().design, task.space, "by the search");
+  record.folder().write("best.cfg", best_configuration.dump());
+  record.folder().write("search.csv", result.table);
+  record.folder().write("sensitivity.csv", sensitivity_table(result.ranges));
+  const CloserLook look = look_closer(task.verification, result.best(), record.folder());
+  const std::string title = picture_title(task.telescope, task.seeing);
+  std::vector<PlannedPicture> pictures{search_picture(title, result.steps)};
+  if (!result.ranges.empty()) pictures.push_back(sensitivity_picture(title, result.ranges));
+  std::vector<std::string> notes = task.notes;
+  for (const std::vector<std::string>& more :
+       {look.notes, draw_pictures(pictures, record.folder())}) {
+    notes.insert(notes.end(), more.begin(), more.end());
+  }
+  record.write_summary(
+      {{"best", to_json(result.best(), task.verification)},
+       {"baseline", to_json(result.baseline, task.verification)},
+       {"improvement",
+        {{"cost", result.gain.cost.mean}, {"standard_error", result.gain.cost.standard_error}}},
+       {"ranking", to_json(result.ranking, task.verification)},
+       {"indistinguishable", ranges_object(result)},
+       {"closer_look", look.summary},
+       {"evaluations", result.search.evaluations},
+       {"cheap_evaluations", result.cheap_evaluations},
+       {"given_up", result.given_up},
+       {"cache_hits", result.search.cache_hits},
+       {"failures", result.search.failures},
+       {"search_reconstructions", result.search_reconstructions},
+       {"saved_reconstructions", result.saved_reconstructions},
+       {"reconstructions", result.reconstructions},
+       {"wall_seconds", stopwatch.seconds()},
+       {"search_seconds", result.search_seconds},
+       {"termination", to_string(result.search.termination)},
+       {"stages", stages_array(result.search)}});
+  print_result(task, result, configuration.choice("search.precision"), notes);
+  record.close();
+}
+
+}  // namespace nlcwfs

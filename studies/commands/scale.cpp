@@ -1,0 +1,118 @@
+#include "model/input_error.hpp"
+#include "results/tables/design_summary.hpp"
+#include "results/text/design_text.hpp"
+#include "studies/commands/run_functions.hpp"
+#include "studies/run/run_record.hpp"
+#include "studies/settings/setup.hpp"
+#include "studies/settings/units.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+/// The telescope of the section scale; what is not set is as at the telescope that it comes from.
+Telescope scaled_telescope_of(const Configuration& configuration, Telescope telescope) {
+  const auto diameter = configuration.optional_length("scale.diameter");
+  const auto wavelength = configuration.optional_length("scale.wavelength");
+  const auto relay = configuration.optional_length("scale.relay_beam_diameter");
+  if (!diameter && !wavelength && !relay) {
+    throw InputError("scale.diameter", "(nothing)",
+                     "set scale.diameter, scale.wavelength or scale.relay_beam_diameter, such as "
+                     "--scale.diameter 8.2m");
+  }
+  telescope.diameter = diameter.value_or(telescope.diameter);
+  telescope.wavelength = wavelength.value_or(telescope.wavelength);
+  if (relay) telescope.relay_beam_diameter = relay;
+  telescope.validate();
+  return telescope;
+}
+
+/// Whether a key holds lengths of a sensor that a search or sweep varies.
+bool is_varied_length(const ConfigurationKey& key) {
+  return (key.kind == Kind::domain || key.kind == Kind::axis) && key.element == Kind::length;
+}
+
+}  // namespace
+
+void run_scale(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  require_one_condition(configuration);
+  const Telescope telescope = telescope_of(configuration);
+  const Seeing seeing = seeing_of(configuration, telescope);
+  const SensorDesign design = design_of(configuration);
+  design.validate(telescope);
+  const Telescope target = scaled_telescope_of(configuration, telescope);
+  const double size_ratio = target.diameter / telescope.diameter;
+  // Equal D/r0 and equal outer scale in diameters: the same turbulence for the larger beam.
+  Seeing target_seeing{.fried_parameter = seeing.fried_parameter * size_ratio};
+  if (seeing.outer_scale) target_seeing.outer_scale = *seeing.outer_scale * size_ratio;
+  SensorDesign scaled = design;
+  for (double& plane : scaled.planes) plane = scaled_distance(plane, telescope, target);
+  // Tolerances are optical path; equal designs are equal in waves.
+  scaled.reconstruction.tolerance *= target.wavelength / telescope.wavelength;
+  RunRecord record(command_line);
+
+  Configuration scaled_configuration = configuration;
+  const auto set = [&](std::string_view key, const std::string& value) {
+    scaled_configuration.set(key, value, "by scale");
+  };
+  set("telescope.diameter", fmt::format("{}", target.diameter));
+  set("telescope.wavelength", fmt::format("{}", target.wavelength));
+  if (target.relay_beam_diameter) {
+    set("telescope.relay_beam_diameter", fmt::format("{}", *target.relay_beam_diameter));
+  }
+  set("seeing.d_over_r0", fmt::format("{}", target.diameter / target_seeing.fried_parameter));
+  if (target_seeing.outer_scale) {
+    set("seeing.outer_scale", fmt::format("{}", *target_seeing.outer_scale));
+  }
+  // Every distance, so that the file also searches at the new telescope.
+  const auto moved = [&](double distance) { return scaled_distance(distance, telescope, target); };
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (key.name.ends_with(".planes")) {
+      std::vector<double> planes = configuration.lengths(key.name);
+      std::ranges::transform(planes, planes.begin(), moved);
+      set(key.name, fmt::format("{}", fmt::join(planes, ",")));
+    } else if (is_varied_length(key) && configuration.is_set(key.name)) {
+      // Tolerances are optical path, everything else is a distance.
+      const bool is_path = key.name.ends_with("tolerance");
+      set(key.name, with_lengths(configuration.value_text(key.name), [&](double length) {
+            return is_path ? length * target.wavelength / telescope.wavelength : moved(length);
+          }));
+    }
+  }
+  if (configuration.is_set("source.bands")) {
+    std::vector<std::string> bands;
+    for (const Band& band : configuration.bands("source.bands")) {
+      const double ratio = target.wavelength / telescope.wavelength;
+      bands.push_back(fmt::format("{}:{}", band.shortest * ratio, band.longest * ratio));
+    }
+    set("source.bands", fmt::format("{}", fmt::join(bands, ",")));
+  }
+  // Equal designs are equal in waves, and so are their costs.
+  set("objective.wfe_scale", fmt::format("{}", configuration.length("objective.wfe_scale") *
+                                                   target.wavelength / telescope.wavelength));
+  set("reconstruction.tolerance", fmt::format("{}", scaled.reconstruction.tolerance));
+  record.folder().write("scaled.cfg", scaled_configuration.dump());
+  record.write_summary({{"design", to_json(design, telescope, seeing.fried_parameter)},
+                        {"scaled", to_json(scaled, target, target_seeing.fried_parameter)},
+                        {"scaled_telescope",
+                         {{"diameter_m", target.diameter},
+                          {"wavelength_m", target.wavelength},
+                          {"fried_parameter_m", target_seeing.fried_parameter}}}});
+
+  record.print("From: {}\n{}\n", telescope_line(telescope, seeing),
+               planes_table(design, telescope, seeing));
+  record.print("To: {}\n{}\n", telescope_line(target, target_seeing),
+               planes_table(scaled, target, target_seeing));
+  record.print(
+      "Equal Fresnel numbers and D/r0: the same loops, and the same wavefront error in waves\n"
+      "(in nm it is multiplied by {:.4g}). scaled.cfg evaluates the new design.\n",
+      target.wavelength / telescope.wavelength);
+  record.close();
+}
+
+}  // namespace nlcwfs

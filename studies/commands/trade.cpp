@@ -1,0 +1,388 @@
+#include "results/pictures/scatter_picture.hpp"
+#include "results/tables/csv_table.hpp"
+#include "results/tables/design_summary.hpp"
+#include "results/tables/trial_summary.hpp"
+#include "results/text/axis_text.hpp"
+#include "results/text/design_text.hpp"
+#include "results/text/quantity_text.hpp"
+#include "studies/commands/run_functions.hpp"
+#include "studies/run/run_record.hpp"
+#include "studies/run/stopwatch.hpp"
+#include "studies/search/closer_look.hpp"
+#include "studies/search/trade_search.hpp"
+#include "studies/settings/setup.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <boost/algorithm/string/replace.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A design's planes and its pixels across the pupil.
+std::pair<std::size_t, int> cell_of(const TradedDesign& traded) {
+  const SensorDesign& design = traded.verified.design;
+  return {design.planes.size(), design.detector.pupil_pixels};
+}
+
+/// The best in the first objective of each number of planes and pixels.
+std::map<std::pair<std::size_t, int>, std::size_t> cell_winners(const TradeResult& result) {
+  std::map<std::pair<std::size_t, int>, std::size_t> winners;
+  for (std::size_t i = 0; i < result.front.size(); ++i) {
+    // They are in order.
+    if (result.front[i].stands()) winners.emplace(cell_of(result.front[i]), i);
+  }
+  return winners;
+}
+
+Json front_array(const TradeSearch& task, const TradeResult& result) {
+  Json front = Json::array();
+  for (const TradedDesign& traded : result.front) {
+    Json json = to_json(traded.verified, task.verification);
+    for (std::size_t i = 0; i < task.objectives.size(); ++i) {
+      json["objectives"][std::string(task.objectives[i].name)] = to_json(traded.objectives[i]);
+    }
+    json["dominated"] = traded.dominated;
+    json["tied_with"] = traded.tied_with ? Json(*traded.tied_with) : Json(nullptr);
+    front.push_back(json);
+  }
+  return front;
+}
+
+Json bests_object(const TradeSearch& task, const TradeResult& result) {
+  Json all = Json::object();
+  for (std::size_t i = 0; i < result.bests.size(); ++i) {
+    Json& list = all[std::string(task.objectives[i + 1].name)] = Json::array();
+    for (const BoundedBest& best : result.bests[i]) {
+      list.push_back({{"bound", best.bound}, {"design", best.design}});
+    }
+  }
+  return all;
+}
+
+Json winners_array(const TradeResult& result) {
+  Json winners = Json::array();
+  for (const auto& [cell, design] : cell_winners(result)) {
+    winners.push_back(
+        {{"plane_count", cell.first}, {"pupil_pixels", cell.second}, {"design", design}});
+  }
+  return winners;
+}
+
+Json reference_object(const TradeSearch& task, const TradeResult& result) {
+  Json reference = Json::object();
+  for (std::size_t i = 0; i < task.objectives.size(); ++i) {
+    reference[std::string(task.objectives[i].name)] = result.reference_point[i];
+  }
+  return reference;
+}
+
+/// All but what a clock measured.
+std::string front_table(const TradeSearch& task, const TradeResult& result) {
+  std::vector<std::string> columns{"design", "dominated", "violation", "planes_m"};
+  std::vector<DesignMetric> metrics = task.objectives;
+  for (const PerformanceMetric& metric : performance_metrics()) {
+    const DesignMetric& known = *find_design_metric(metric.name);
+    const bool is_there = std::ranges::count(metrics, known.name, &DesignMetric::name) > 0;
+    if (!is_there && known.name != "seconds") metrics.push_back(known);
+  }
+  for (const DesignProperty& property : design_properties()) {
+    columns.push_back(column_of_variable(property.name));
+  }
+  for (const DesignMetric& metric : metrics) {
+    columns.emplace_back(metric.name);
+    columns.push_back(fmt::format("{}_standard_error", metric.name));
+  }
+  CsvTable table(columns);
+  for (std::size_t i = 0; i < result.front.size(); ++i) {
+    const TradedDesign& traded = result.front[i];
+    const SensorDesign& design = traded.verified.design;
+    table.row()
+        .add(double(i))
+        .add(traded.dominated ? 1.0 : 0.0)
+        .add(traded.evaluated.violation)
+        .add(fmt::format("{:.7g}", fmt::join(design.planes, ",")));
+    for (const DesignProperty& property : design_properties()) table.add(property.get(design));
+    for (std::size_t k = 0; k < metrics.size(); ++k) {
+      const MeanAndError value = k < traded.objectives.size()
+                                     ? traded.objectives[k]
+                                     : task.verification.mean_of(traded.verified, metrics[k]);
+      table.add(value.mean).add(value.standard_error);
+    }
+  }
+  return table.text();
+}
+
+/// Total WFE against model time, whatever the objectives are.
+ScatterPicture front_picture(const TradeSearch& task, const TradeResult& result) {
+  ScatterPicture picture{
+      .title = fmt::format(
+          "Front of {:.4g} m at {}, D/r0 = {:.4g}, on fresh screens; pale: bettered there",
+          task.telescope.diameter, format_length(task.telescope.wavelength),
+          task.telescope.diameter / task.seeing.fried_parameter),
+      .x_label = "model time of a reconstruction, ms",
+      .y_label = "total wavefront error, nm",
+      .marked = result.knee,
+      .mark_label = "knee"};
+  std::set<std::size_t> planes;
+  std::set<int> pixels;
+  for (const TradedDesign& traded : result.front) {
+    planes.insert(cell_of(traded).first);
+    pixels.insert(cell_of(traded).second);
+  }
+  for (const std::size_t count : planes) picture.colours.push_back(fmt::format("{} planes", count));
+  for (const int count : pixels) picture.symbols.push_back(fmt::format("{} pixels", count));
+  for (const TradedDesign& traded : result.front) {
+    const auto [plane_count, pupil_pixels] = cell_of(traded);
+    const auto mean_of = [&](std::string_view metric) {
+      return task.verification.mean_of(traded.verified, *find_design_metric(metric));
+    };
+    picture.points.push_back(
+        {.x = 1e3 * mean_of("model_seconds").mean,
+         .y = mean_of("total_wfe_nm"),
+         .colour = static_cast<int>(std::distance(planes.begin(), planes.find(plane_count))),
+         .symbol = static_cast<int>(std::distance(pixels.begin(), pixels.find(pupil_pixels))),
+         .is_pale = !traded.stands()});
+  }
+  return picture;
+}
+
+/// A figure of an objective as people read it.
+std::string figure_text(const DesignMetric& metric, const MeanAndError& value) {
+  if (metric.unit == "s") {
+    return value.mean < 1.0 ? fmt::format("{:.3g} ms", 1e3 * value.mean)
+                            : fmt::format("{:.3g} s", value.mean);
+  }
+  if (value.standard_error == 0.0) return fmt::format("{:.6g}", value.mean);
+  return with_error(value) + (metric.unit.empty() ? "" : fmt::format(" {}", metric.unit));
+}
+
+/// How the search ended, for people.
+std::string_view ending_text(Termination termination) {
+  switch (termination) {
+    case Termination::budget_exhausted:
+      return "all that trade.budget allows";
+    case Termination::time_limit:
+      return "until search.time_limit";
+    case Termination::stop_requested:
+      return "until it was interrupted";
+    default:
+      break;
+  }
+  return "until it brought forth no new ones";
+}
+
+std::string search_text(const TradeSearch& task, const TradeResult& result,
+                        const Configuration& configuration) {
+  const std::size_t conditions = task.trial.conditions().size();
+  const std::size_t found = result.search.front.size();
+  const std::string planes = boost::algorithm::replace_first_copy(
+      configuration.value_text("search.plane_count"), ":", " to ");
+  std::string text =
+      fmt::format("Tried {} designs of {} planes on {} screens{} in {} precision in {}, {}",
+                  result.search.evaluations, planes, task.trial.screen_count(),
+                  conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "",
+                  configuration.choice("search.precision"), duration_text(result.search_seconds),
+                  ending_text(result.search.termination));
+  if (result.search.failures > 0) {
+    text += fmt::format("; {} of them failed, see search.csv", result.search.failures);
+  }
+  text +=
+      fmt::format(".\n{} of them are better than each other in one objective or another. ", found);
+  if (result.front.size() == found) {
+    text += "All of these";
+  } else if (result.verification_interrupted) {
+    text += fmt::format("{} of these, up to the interruption,", result.front.size());
+  } else {
+    text += fmt::format("{} of these, from each number of planes and pixels in turn,",
+                        result.front.size());
+  }
+  text += fmt::format(
+      " were tried on {} fresh screens, true field {} samples across the pupil; {} stand there.\n",
+      result.front.empty() ? 0 : result.front.front().verified.costs.size(),
+      task.verification.conditions().front().simulation->truth_samples(), result.standing_count());
+  return text;
+}
+
+/// The objectives that no other column of the front's table tells.
+std::vector<std::size_t> further_objectives(const TradeSearch& task) {
+  std::vector<std::size_t> further;
+  const bool is_mean = task.trial.cost().aggregate.kind == AggregateKind::mean;
+  for (std::size_t i = 0; i < task.objectives.size(); ++i) {
+    const std::string_view name = task.objectives[i].name;
+    const bool is_told = (is_mean && (name == "total_wfe_nm" || name == "model_seconds")) ||
+                         name == "plane_count" ||
+                         (name == "detector_pixels" && !task.space.varies("detector_window"));
+    if (!is_told) further.push_back(i);
+  }
+  return further;
+}
+
+std::string front_text(const TradeSearch& task, const TradeResult& result) {
+  const std::vector<std::size_t> further = further_objectives(task);
+  std::string text = fmt::format("  {:>6} {:>7} {:>7} {:>18} {:>7} {:>11}", "design", "planes",
+                                 "pixels", "total WFE, nm", "loops", "model time");
+  for (const std::size_t i : further) text += fmt::format(" {:>22}", task.objectives[i].name);
+  text += "   distances in visiting order, km\n";
+  for (std::size_t i = 0; i < result.front.size(); ++i) {
+    const TradedDesign& traded = result.front[i];
+    const SensorDesign& design = traded.verified.design;
+    const auto mean_of = [&](std::string_view metric) {
+      return task.verification.mean_of(traded.verified, *find_design_metric(metric));
+    };
+    std::string distances;
+    for (const double z : design.planes) {
+      distances += fmt::format("{}{:.3g}", distances.empty() ? "" : ", ", 1e-3 * z);
+    }
+    text +=
+        fmt::format("{:1} {:>6} {:>7} {:>7} {:>18} {:>7.1f} {:>11}", result.knee == i ? "*" : "", i,
+                    design.planes.size(), design.detector.pupil_pixels,
+                    with_error(mean_of("total_wfe_nm")), mean_of("fractional_loops").mean,
+                    figure_text(*find_design_metric("model_seconds"), mean_of("model_seconds")));
+    for (const std::size_t k : further) {
+      text += fmt::format(" {:>22}", figure_text(task.objectives[k], traded.objectives[k]));
+    }
+    text += fmt::format("   {}{}\n", distances,
+                        traded.evaluated.violation > 0.0 ? "  breaks a limit there"
+                        : traded.dominated               ? "  bettered there"
+                        : traded.tied_with ? fmt::format("  a tie with {}", *traded.tied_with)
+                                           : "");
+  }
+  return text;
+}
+
+std::string bests_text(const TradeSearch& task, const TradeResult& result) {
+  constexpr std::size_t most_rows = 8;
+  std::string text;
+  for (std::size_t i = 0; i < result.bests.size(); ++i) {
+    const std::vector<BoundedBest>& bests = result.bests[i];
+    const DesignMetric& bound = task.objectives[i + 1];
+    text += fmt::format("\nBest {} with {} of at {}\n", task.objectives.front().name, bound.name,
+                        bound.higher_is_better ? "least" : "most");
+    for (const std::size_t row : evenly_chosen(std::vector<std::string>(bests.size()), most_rows)) {
+      const TradedDesign& traded = result.front[bests[row].design];
+      const auto [planes, pixels] = cell_of(traded);
+      text += fmt::format("  {:>22}: {:>22} by {} planes of {} pixels, design {}\n",
+                          figure_text(bound, traded.objectives[i + 1]),
+                          figure_text(task.objectives.front(), traded.objectives.front()), planes,
+                          pixels, bests[row].design);
+    }
+  }
+  return text;
+}
+
+std::string knee_text(const TradeSearch& task, const TradeResult& result) {
+  if (!result.knee) {
+    return "warning: no design was found that keeps objective.limits; there is no front.\n";
+  }
+  const TradedDesign& traded = result.front[*result.knee];
+  std::string figures;
+  for (std::size_t i = 0; i < task.objectives.size(); ++i) {
+    figures += fmt::format("{}{} {}", i > 0 ? ", " : "", task.objectives[i].name,
+                           figure_text(task.objectives[i], traded.objectives[i]));
+  }
+  const Performance performance = pooled(traded.verified.performances);
+  return fmt::format(
+      "Knee (*), the best where all objectives weigh the same over their ranges on the front:\n{}"
+      "  {}\n{}{}",
+      planes_table(traded.verified.design, task.telescope, task.seeing, &performance), figures,
+      choices_text(task.space, traded.verified.design),
+      captured_energy_warnings(traded.verified.design, performance));
+}
+
+std::string hypervolume_text(const TradeSearch& task, const TradeResult& result) {
+  std::string point;
+  for (std::size_t i = 0; i < task.objectives.size(); ++i) {
+    point += fmt::format("{}{} {}", i > 0 ? ", " : "", task.objectives[i].name,
+                         figure_text(task.objectives[i], {result.reference_point[i], 0.0}));
+  }
+  return fmt::format(
+      "The front dominates {:.1f} % of the room between the best conceivable values and the "
+      "reference point\n({}{}).\n",
+      100.0 * result.hypervolume_fraction, point,
+      result.reference_is_of_the_run
+          ? "; in part the worst of this run's first designs, so not to be compared with other runs"
+          : "");
+}
+
+void note_interruption(RunRecord& record, const TradeSearch& task, const TradeResult& result) {
+  if (result.verification_interrupted) {
+    record.note_interrupted(
+        fmt::format("{} of {} designs were verified", result.front.size(), result.chosen_count));
+  } else if (result.search.termination == Termination::stop_requested) {
+    record.note_interrupted(fmt::format("{} of {} designs were tried", result.search.evaluations,
+                                        task.options.evaluation.budget));
+  }
+}
+
+}  // namespace
+
+void run_trade(const CommandLine& command_line) {
+  const Configuration& configuration = command_line.configuration;
+  const Stopwatch stopwatch;
+  TradeSearch task(configuration);
+  RunRecord record(command_line);
+  for (DesignTrial* trial : {&task.trial, &task.verification}) record.adopt(*trial);
+  const TradeResult result = task.run(record.archive());
+  note_interruption(record, task, result);
+
+  record.folder().write("front.csv", front_table(task, result));
+  record.folder().write("search.csv", result.table);
+  if (result.knee) {
+    Configuration knee_configuration = configuration;
+    set_design(knee_configuration, result.front[*result.knee].verified.design, task.space,
+               "by the trade");
+    record.folder().write("knee.cfg", knee_configuration.dump());
+  }
+  const auto no_picture = write_picture(front_picture(task, result), record.folder().file("front"));
+  std::vector<std::string> notes = task.notes;
+  if (no_picture) notes.push_back(fmt::format("there is no front.svg: {}", *no_picture));
+  Json look(nullptr);
+  if (result.knee) {
+    CloserLook knee =
+        look_closer(task.verification, result.front[*result.knee].verified, record.folder());
+    look = std::move(knee.summary);
+    std::ranges::move(knee.notes, std::back_inserter(notes));
+  }
+  Json names = Json::array();
+  for (const DesignMetric& objective : task.objectives) names.push_back(objective.name);
+  record.write_summary({{"objectives", names},
+                        {"front", front_array(task, result)},
+                        {"knee", result.knee ? Json(*result.knee) : Json(nullptr)},
+                        {"closer_look", look},
+                        {"hypervolume", result.hypervolume},
+                        {"hypervolume_fraction", result.hypervolume_fraction},
+                        {"reference_point", reference_object(task, result)},
+                        {"reference_is_of_the_run", result.reference_is_of_the_run},
+                        {"best_within", bests_object(task, result)},
+                        {"best_of_planes_and_pixels", winners_array(result)},
+                        {"front_of_search", result.search.front.size()},
+                        {"evaluations", result.search.evaluations},
+                        {"cache_hits", result.search.cache_hits},
+                        {"failures", result.search.failures},
+                        {"reconstructions", result.reconstructions},
+                        {"wall_seconds", stopwatch.seconds()},
+                        {"search_seconds", result.search_seconds},
+                        {"termination", to_string(result.search.termination)},
+                        {"verification_interrupted", result.verification_interrupted}});
+
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
+  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing),
+             search_text(task, result, configuration));
+  if (!result.front.empty()) {
+    fmt::print("Front, on the fresh screens:\n{}{}\n", front_text(task, result),
+               bests_text(task, result));
+  }
+  fmt::print("{}\n{}", knee_text(task, result), hypervolume_text(task, result));
+  record.close();
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+namespace nlcwfs {
+
+/// What the page of a run shows, from the files of its folder alone:
+///
+/// - command, version, written (when, UTC), telescope and verdict (a line each), notes (lines on
+///   what is not there or cannot be read)
+/// - summary                   summary.json without its configuration
+/// - configuration             config.cfg as it is
+/// - design_configuration      {file, text} of the design that the run ends in
+/// - diameter_m, talbot_m      of the telescope, of the Fried parameter
+/// - best_place                where a sweep's best stands on each axis of its grid, null where
+///                             nowhere
+/// - front_configurations      of each design of a trade's front, without comments
+/// - tables                    by file: columns by their names, numbers where all cells are
+/// - images                    by file: unit, samples along each side, count, and the first slices,
+///                             see page_image()
+/// - pictures                  by file: SVG
+///
+/// @throws InputError naming DIR where there is no summary.json, it cannot be read, or it is of no
+///         command that is known
+nlohmann::ordered_json page_data(const std::filesystem::path& folder);
+
+}  // namespace nlcwfs

@@ -1,0 +1,7 @@
+#include "studies/run/version.hpp"
+
+namespace nlcwfs {
+
+std::string_view version() { return NLCWFS_VERSION; }
+
+}  // namespace nlcwfs

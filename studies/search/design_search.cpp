@@ -1,0 +1,291 @@
+#include "studies/search/design_search.hpp"
+
+#include "model/input_error.hpp"
+#include "objectives/design_problem.hpp"
+#include "results/tables/design_summary.hpp"
+#include "studies/run/interrupt.hpp"
+#include "studies/run/progress.hpp"
+#include "studies/run/stopwatch.hpp"
+#include "studies/search/search_log.hpp"
+#include "studies/settings/setup.hpp"
+#include "studies/settings/text.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <stop_token>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+namespace {
+
+/// The method, limits and seed of the section search.
+SearchOptions search_options_of(const Configuration& configuration,
+                                const std::vector<SubSpace>& sub_spaces) {
+  SearchOptions options;
+  options.optimizer = configuration.text("search.optimizer");
+  options.seed = configuration.seed("search.seed");
+  EvaluatorOptions& evaluation = options.evaluation;
+  evaluation.budget = configuration.integer("search.budget");
+  evaluation.time_limit = configuration.optional_time("search.time_limit");
+  evaluation.stagnation = configuration.integer("search.stagnation");
+  evaluation.race_significance = configuration.number("search.race");
+  if (configuration.is_set("search.target")) {
+    evaluation.target = configuration.number("search.target");
+  }
+  require_variables(sub_spaces);
+  try {
+    search_method(options.optimizer, sub_spaces);
+  } catch (const std::invalid_argument& error) {
+    throw InputError("search.optimizer", options.optimizer, error.what());
+  }
+  return options;
+}
+
+DesignTrial cheap_trial_of(const Configuration& configuration, bool pixels_vary) {
+  Configuration cheap = configuration;
+  for (const auto& [key, value] :
+       {std::pair("screens.count", configuration.value_text("search.cheap_screens")),
+        std::pair("search.precision", std::string("single"))}) {
+    cheap.set(key, value, "by the cheap search");
+  }
+  std::vector<std::string> ignored_notes;
+  return trial_of(cheap, "search.precision", ignored_notes, pixels_vary);
+}
+
+}  // namespace
+
+void require_variables(const std::vector<SubSpace>& sub_spaces) {
+  for (const SubSpace& sub_space : sub_spaces) {
+    if (!sub_space.variables.empty()) continue;
+    throw InputError("search.plane_count", sub_space.name,
+                     "nothing of this design may vary; give a key of the section search a range or "
+                     "a list");
+  }
+}
+
+void require_valid_designs(const DesignSpace& space, const DesignTrial& trial) {
+  const std::vector<SubSpace> sub_spaces = space.sub_spaces();
+  for (std::size_t s = 0; s < sub_spaces.size(); ++s) {
+    const std::vector<Variable>& variables = sub_spaces[s].variables;
+    const SearchPoint point = lowest_point(sub_spaces[s], static_cast<int>(s));
+    trial.checked(space.design(point));
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      SearchPoint moved = point;
+      double& x = moved.x[Eigen::Index(i)];
+      if (space.name(point.sub_space, i) == "order") continue;  // all are equally valid
+      for (const double value : variables[i].outstanding_values()) {
+        x = value;
+        trial.checked(space.design(moved));
+      }
+    }
+  }
+}
+
+void require_verifiable_designs(const Configuration& configuration, const DesignSpace& space,
+                                const DesignTrial& verification,
+                                const std::vector<SensorDesign>& others) {
+  try {
+    for (const SensorDesign& other : others) verification.checked(other);
+    require_valid_designs(space, verification);
+  } catch (const InputError& error) {
+    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
+                     fmt::format("the finer truth does not suit the design: {}", error.what()));
+  }
+}
+
+DesignSearch::DesignSearch(const Configuration& configuration)
+    : telescope(telescope_of(configuration)),
+      seeing(seeing_of(configuration, telescope)),
+      space(
+          search_space_of(configuration, telescope,
+                          simulated_design(design_of(configuration), telescope,
+                                           simulation_options_of(configuration, "search.precision"),
+                                           truth_samples(configuration)))),
+      options(search_options_of(configuration, space.sub_spaces())),
+      trial(trial_of(configuration, "search.precision", notes, space.varies("pupil_pixels"))),
+      verification(verification_trial_of(configuration, space.varies("pupil_pixels"))),
+      scan(fresh_trial_of(configuration, "search.precision", space.varies("pupil_pixels"))),
+      baseline(trial.checked(baseline_of(configuration))),
+      candidates_(configuration.integer("verify.candidates")) {
+  require_valid_designs(space, trial);
+  require_verifiable_designs(configuration, space, verification, {baseline});
+  if (!configuration.text("screens.file").empty()) {
+    notes.emplace_back("the verification is on simulated screens of the configured seeing");
+  }
+  // The user's own designs are tried first.
+  for (const SensorDesign& known : {design_of(configuration), baseline}) {
+    if (const auto point = space.point_of(known)) options.starts.push_back(*point);
+  }
+  if (configuration.integer("search.cheap_budget") == 0) return;
+  SensorDesign cheap = simulated_design(design_of(configuration), telescope,
+                                        simulation_options_of(configuration, "search.precision"),
+                                        truth_samples(configuration));
+  cheap.reconstruction.window = rounded_window(
+      std::max(configuration.number("search.cheap_window") * cheap.reconstruction.window,
+               cheap.detector.window),
+      cheap.pupil_samples());
+  SearchOptions cheap_options = options;
+  cheap_options.evaluation.budget = configuration.integer("search.cheap_budget");
+  cheap_options.evaluation.target.reset();  // it is one of the search proper
+  cheap_.emplace(CheapStage{cheap_trial_of(configuration, space.varies("pupil_pixels")),
+                            search_space_of(configuration, telescope, cheap), cheap_options});
+  try {
+    require_valid_designs(cheap_->space, cheap_->trial);
+  } catch (const InputError& error) {
+    throw InputError("search.cheap_window", configuration.number("search.cheap_window"),
+                     fmt::format("does not suit the design: {}", error.what()));
+  }
+}
+
+std::vector<DesignTrial*> DesignSearch::trials() {
+  std::vector<DesignTrial*> all{&trial, &verification, &scan};
+  if (cheap_) all.push_back(&cheap_->trial);
+  return all;
+}
+
+DesignSearchResult DesignSearch::run(Archive& archive, const Progress* whole) const {
+  DesignSearchResult result;
+  const InterruptWatch watch;
+  std::vector<SearchPoint> starts = options.starts;
+  const Stopwatch stopwatch;
+  if (cheap_) {
+    const SearchResult cheap =
+        search_stage("cheap search", cheap_->space, cheap_->trial, cheap_->options, archive,
+                     "then the search and the verification", whole, result);
+    result.cheap_evaluations = cheap.evaluations;
+    // Not the costs: they are of another simulation. First, as an interrupted search tries one.
+    std::vector<SearchPoint> leaders;
+    for (const EvaluatedDesign& leader : cheap.best_designs) leaders.push_back(leader.point);
+    starts.insert(starts.begin(), leaders.begin(), leaders.end());
+  }
+  SearchOptions from_starts = options;
+  from_starts.starts = starts;
+  if (std::optional<double>& limit = from_starts.evaluation.time_limit) {
+    limit = std::max(0.0, *limit - stopwatch.seconds());
+  }
+  result.search = search_stage("search", space, trial, from_starts, archive,
+                               "then the verification", whole, result);
+  result.search_seconds = stopwatch.seconds();
+  result.reconstructions = result.search_reconstructions;
+  if (result.search.termination == Termination::stop_requested) {
+    result.interrupted_when = fmt::format("{} of {} designs were tried", result.search.evaluations,
+                                          from_starts.evaluation.budget);
+  }
+  verify(archive, whole, result);
+  if (result.interrupted_when.empty()) scan_ranges(whole, result);
+  return result;
+}
+
+void DesignSearch::verify(Archive& archive, const Progress* whole,
+                          DesignSearchResult& result) const {
+  // An interrupt that ended the search does not end this too.
+  const bool may_end = result.interrupted_when.empty();
+  const auto& leaders = result.search.best_designs;
+  const std::size_t count = std::min(leaders.size(), static_cast<std::size_t>(candidates_));
+  Progress progress = verification_progress(
+      verification, count + 1, may_end ? "then how far each variable may move" : "", whole);
+  const auto watch = [&] { return may_end ? interruptible(progress) : counted(progress); };
+  const auto count_screens = [&](const TriedDesign& tried) {
+    result.reconstructions +=
+        static_cast<long>(verification.conditions().size() * tried.costs.size());
+  };
+  const auto is_whole = [&](const TriedDesign& tried) {
+    return static_cast<int>(tried.costs.size()) == verification.screen_count();
+  };
+  // The baseline first: whatever is done later can then be held against it.
+  result.baseline = verified_design(baseline, verification, archive, watch());
+  count_screens(result.baseline);
+  std::vector<RankedDesign> candidates;
+  std::size_t failures = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::optional<TriedDesign> tried =
+        verified_candidate(space.design(leaders[i].point), verification, archive, watch(),
+                           candidates.empty() && i + 1 == count);
+    if (!tried) {
+      ++failures;
+      continue;
+    }
+    count_screens(*tried);
+    if (!is_whole(*tried) && !candidates.empty()) break;
+    candidates.push_back({.candidate = i, .verified = std::move(*tried)});
+    if (may_end && InterruptWatch::interrupted()) break;
+  }
+  TriedDesign& first = candidates.front().verified;
+  const std::size_t screens = std::min(result.baseline.costs.size(), first.costs.size());
+  if (static_cast<int>(screens) < verification.screen_count()) {
+    result.baseline = verification.on_first_screens(std::move(result.baseline), screens);
+    candidates.resize(1);
+    first = verification.on_first_screens(std::move(first), screens);
+    result.interrupted_when = fmt::format("the best design was verified on {} of {} screens",
+                                          screens, verification.screen_count());
+  } else if (candidates.size() + failures < count) {
+    result.interrupted_when =
+        fmt::format("{} of {} designs were verified", candidates.size(), count - failures);
+  }
+  result.ranking = ranked(std::move(candidates));
+  result.gain = improvement(result.best(), result.baseline);
+}
+
+void DesignSearch::scan_ranges(const Progress* whole, DesignSearchResult& result) const {
+  const SearchPoint& best = result.search.best_designs[result.ranking.front().candidate].point;
+  Progress progress("how far each variable may move", 1.0, "of the scan", "", whole);
+  OptimumScan scanned;
+  try {
+    scanned = optimum_ranges(
+        space, scan, best,
+        [&](double share) {
+          progress.describe(fmt::format("{:.0f} %", 100.0 * share));
+          progress.at(share);
+        },
+        [] { return !InterruptWatch::interrupted(); });
+  } catch (const TrialMemoryFailed&) {
+    throw;  // no design is to blame
+  } catch (const std::exception& error) {
+    result.interrupted_when =
+        fmt::format("the best design failed in the scan of how far its variables may move: {}",
+                    without_controls(error.what()));
+    return;
+  }
+  result.ranges = std::move(scanned.ranges);
+  result.reconstructions +=
+      static_cast<long>(scan.conditions().size()) * scan.screen_count() * scanned.designs;
+  const int variables =
+      space.sub_spaces()[static_cast<std::size_t>(best.sub_space)].continuous_count();
+  if (static_cast<int>(result.ranges.size()) < variables) {
+    result.interrupted_when =
+        fmt::format("it was known of {} of {} variables how far they may move",
+                    result.ranges.size(), variables);
+  }
+}
+
+SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpace& stage_space,
+                                        const DesignTrial& stage_trial, SearchOptions stage_options,
+                                        Archive& archive, std::string then, const Progress* whole,
+                                        DesignSearchResult& result) const {
+  SearchLog log(name, stage_space, telescope, seeing.fried_parameter, stage_options.evaluation,
+                archive, std::move(then), whole);
+  DesignProblem problem(stage_space, stage_trial, {}, log.interruptible());
+  std::stop_source stop;
+  if (InterruptWatch::interrupted()) stop.request_stop();
+  stage_options.evaluation.stop = stop.get_token();
+  stage_options.evaluation.observer = [&](const EvaluationRecord& evaluation) {
+    log.add(evaluation);
+    if (InterruptWatch::interrupted()) stop.request_stop();
+  };
+  SearchResult found = search(problem, stage_options);
+  result.search_reconstructions += log.reconstructions();
+  result.given_up += log.given_up();
+  const long screens =
+      static_cast<long>(stage_trial.conditions().size()) * stage_trial.screen_count();
+  result.saved_reconstructions +=
+      screens * (found.evaluations - found.failures) - log.reconstructions();
+  result.table = log.table();
+  result.steps = log.steps();
+  return found;
+}
+
+}  // namespace nlcwfs

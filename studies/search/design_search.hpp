@@ -1,0 +1,104 @@
+#pragma once
+
+#include "model/seeing.hpp"
+#include "model/telescope.hpp"
+#include "objectives/design_comparison.hpp"
+#include "objectives/design_space.hpp"
+#include "objectives/design_trial.hpp"
+#include "objectives/optimum_range.hpp"
+#include "optimizer/chained_search.hpp"
+#include "results/archive/archive.hpp"
+#include "results/pictures/search_pictures.hpp"
+#include "studies/search/verified_ranking.hpp"
+#include "studies/settings/configuration.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nlcwfs {
+
+/// @throws InputError where all of some sub-space's design is fixed
+void require_variables(const std::vector<SubSpace>& sub_spaces);
+
+/// Checks each value that a space's discrete variables have, and both ends of the others, one at a
+/// time.
+/// @throws InputError where the trial cannot have such a design
+void require_valid_designs(const DesignSpace& space, const DesignTrial& trial);
+
+/// The same with the trial of the section verify, and for some more designs.
+/// @throws InputError naming verify.truth_factor
+void require_verifiable_designs(const Configuration& configuration, const DesignSpace& space,
+                                const DesignTrial& verification,
+                                const std::vector<SensorDesign>& others = {});
+
+/// What a search found, and what it took.
+struct DesignSearchResult {
+  SearchResult search;  ///< of the search proper
+  /// The search's best few on fresh screens, by their costs there, best first.
+  std::vector<RankedDesign> ranking;
+  TriedDesign baseline;   ///< on the same screens
+  Improvement gain = {};  ///< of the best over the baseline
+  /// Of the variables that were scanned before an interrupt.
+  std::vector<OptimumRange> ranges;
+  std::string interrupted_when;     ///< for people; empty where it was not
+  int cheap_evaluations = 0;        ///< designs of the cheap stage
+  int given_up = 0;                 ///< designs that races gave up
+  long search_reconstructions = 0;  ///< of both stages
+  long saved_reconstructions = 0;   ///< that races left out
+  long reconstructions = 0;         ///< verification and ranges included
+  double search_seconds = 0.0;      ///< of both stages, s
+  std::string table;                ///< CSV of the designs of the search
+  std::vector<SearchStep> steps;    ///< of the search
+
+  /// The best of the ranking.
+  const TriedDesign& best() const { return ranking.front().verified; }
+};
+
+/// A search of the sections search, baseline and verify, checked as a whole when it is made.
+class DesignSearch {
+ public:
+  /// @throws InputError where values do not go together
+  explicit DesignSearch(const Configuration& configuration);
+
+  /// The trials of all its stages, for RunRecord::adopt.
+  std::vector<DesignTrial*> trials();
+
+  /// The cheap stage where there is one, the search, the verification on fresh screens and the
+  /// scan of how far the best design's variables may move. An interrupt of the search ends it with
+  /// the best designs so far, which are verified all the same; one of the verification ends it with
+  /// the designs that are done and their baseline, or the best alone on as many screens as are done
+  /// of both.
+  /// @param whole  see Progress
+  DesignSearchResult run(Archive& archive, const Progress* whole = nullptr) const;
+
+  const Telescope telescope;       ///< that designs are for
+  const Seeing seeing;             ///< the first, where there are several
+  const DesignSpace space;         ///< that the search has designs of
+  SearchOptions options;           ///< of the search proper
+  std::vector<std::string> notes;  ///< for the user
+  DesignTrial trial;               ///< of the search
+  DesignTrial verification;        ///< on fresh screens
+  DesignTrial scan;                ///< for the ranges
+  const SensorDesign baseline;     ///< that the best is compared with
+
+ private:
+  struct CheapStage {
+    DesignTrial trial;
+    DesignSpace space;
+    SearchOptions options;
+  };
+
+  SearchResult search_stage(const std::string& name, const DesignSpace& stage_space,
+                            const DesignTrial& stage_trial, SearchOptions stage_options,
+                            Archive& archive, std::string then, const Progress* whole,
+                            DesignSearchResult& result) const;
+  void verify(Archive& archive, const Progress* whole, DesignSearchResult& result) const;
+  void scan_ranges(const Progress* whole, DesignSearchResult& result) const;
+
+  std::optional<CheapStage> cheap_;
+  int candidates_;
+};
+
+}  // namespace nlcwfs

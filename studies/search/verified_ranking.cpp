@@ -1,0 +1,160 @@
+#include "studies/search/verified_ranking.hpp"
+
+#include "objectives/design_space.hpp"
+#include "results/tables/design_summary.hpp"
+#include "results/tables/trial_summary.hpp"
+#include "results/text/design_text.hpp"
+#include "results/text/quantity_text.hpp"
+#include "studies/command_line/commands.hpp"
+#include "studies/run/evaluation_log.hpp"
+#include "studies/run/stopwatch.hpp"
+#include "studies/settings/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <spdlog/spdlog.h>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+std::string_view word_for(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::better:
+      return "better";
+    case Verdict::indistinguishable:
+      return "tied";
+    case Verdict::worse:
+      break;
+  }
+  return "worse";
+}
+
+/// "-115.4 km, 115.4 km"
+std::string planes_text(const SensorDesign& design) {
+  std::vector<std::string> distances;
+  for (const double z : design.planes) distances.push_back(format_length(z));
+  return fmt::format("{}", fmt::join(distances, ", "));
+}
+
+/// By how much it costs more than the best.
+MeanAndError cost_above_best(const RankedDesign& ranked) {
+  const MeanAndError& gain = ranked.against_best.cost;
+  return {-gain.mean, gain.standard_error};
+}
+
+}  // namespace
+
+Progress verification_progress(const DesignTrial& verification, std::size_t designs,
+                               std::string then, const Progress* whole) {
+  const std::size_t conditions = verification.conditions().size();
+  return {"verification", double(designs * conditions) * verification.screen_count(),
+          "fresh screens", std::move(then), whole};
+}
+
+TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verification,
+                            Archive& archive, const ScreenWatch& watch) {
+  const Stopwatch stopwatch;
+  const Condition& first = verification.conditions().front();
+  ArchivedEvaluation evaluation{
+      .stage = "verify",
+      .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
+      .cost = std::numeric_limits<double>::quiet_NaN(),
+      .failure = {},
+      .seconds = 0.0,
+      .performance = {},
+      .key = design_key(design)};
+  std::optional<TriedDesign> tried;
+  try {
+    tried = verification.run(design, {}, watch);
+  } catch (const TrialMemoryFailed&) {
+    throw;  // no design is to blame
+  } catch (const std::exception& error) {
+    evaluation.failure = error.what();
+  }
+  evaluation.seconds = stopwatch.seconds();
+  if (tried) {
+    if (static_cast<int>(tried->costs.size()) < verification.screen_count()) return *tried;
+    evaluation.cost = mean_and_standard_error(tried->costs).mean;
+    evaluation.performance = to_json(pooled(tried->performances)).dump();
+  }
+  archive_and_log(archive, evaluation);
+  if (tried) return *tried;
+  const std::string command = archive.command();
+  const std::string how_to_go_on =
+      command_of(command).resumable
+          ? "; to try it again: " + resume_command(command, archive.path().parent_path())
+          : "";
+  throw VerificationFailed(
+      fmt::format("the design of the planes {} failed on the fresh screens: {}",
+                  planes_text(design), evaluation.failure),
+      how_to_go_on);
+}
+
+std::optional<TriedDesign> verified_candidate(const SensorDesign& design,
+                                              const DesignTrial& verification, Archive& archive,
+                                              const ScreenWatch& watch, bool is_last_hope) {
+  try {
+    return verified_design(design, verification, archive, watch);
+  } catch (const VerificationFailed& failure) {
+    if (is_last_hope) throw;
+    spdlog::warn("{}; it is left out", without_controls(failure.what_failed()));
+    return std::nullopt;
+  }
+}
+
+std::vector<RankedDesign> ranked(std::vector<RankedDesign> candidates) {
+  std::vector<RankedDesign> ranking = std::move(candidates);
+  std::ranges::stable_sort(ranking, {}, [](const RankedDesign& design) {
+    return std::pair(design.verified.violation,
+                     mean_and_standard_error(design.verified.costs).mean);
+  });
+  for (RankedDesign& design : ranking) {
+    design.against_best = improvement(design.verified, ranking.front().verified);
+  }
+  return ranking;
+}
+
+nlohmann::ordered_json to_json(const std::vector<RankedDesign>& ranking,
+                               const DesignTrial& verification) {
+  nlohmann::ordered_json array = nlohmann::ordered_json::array();
+  for (const RankedDesign& design : ranking) {
+    nlohmann::ordered_json json = to_json(design.verified, verification);
+    json["cost_above_best"] = to_json(cost_above_best(design));
+    json["verdict"] = array.empty() ? "best" : word_for(design.against_best.verdict);
+    array.push_back(std::move(json));
+  }
+  return array;
+}
+
+std::string ranking_text(const std::vector<RankedDesign>& ranking, std::string_view of) {
+  if (ranking.size() < 2) return {};
+  std::vector<std::string> planes;
+  std::size_t width = 0;
+  for (const RankedDesign& design : ranking) {
+    planes.push_back(planes_text(design.verified.design));
+    width = std::max(width, planes.back().size());
+  }
+  std::string text =
+      fmt::format("{}'s best {} designs on the fresh screens:\n", of, ranking.size());
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    MeanAndError above = cost_above_best(ranking[i]);
+    // Of designs that tie, one that keeps a limit better may cost more.
+    const char* const direction = above.mean < 0.0 ? "less" : "more";
+    above.mean = std::abs(above.mean);
+    text += fmt::format("  cost {:>18}  {:<{}}  {}\n",
+                        with_error(mean_and_standard_error(ranking[i].verified.costs)), planes[i],
+                        width,
+                        i == 0 ? "the best"
+                        : ranking[i].against_best.verdict == Verdict::indistinguishable
+                            ? fmt::format("a tie: {} {}", with_error(above), direction)
+                            : fmt::format("worse by {}", with_error(above)));
+  }
+  return text + '\n';
+}
+
+}  // namespace nlcwfs

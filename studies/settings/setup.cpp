@@ -1,0 +1,658 @@
+#include "studies/settings/setup.hpp"
+
+#include "model/grid_width.hpp"
+#include "model/image_gaps.hpp"
+#include "model/input_error.hpp"
+#include "model/pupil.hpp"
+#include "model/screen_resampling.hpp"
+#include "model/turbulence_screen.hpp"
+#include "results/fits/fits_cube.hpp"
+#include "studies/settings/metric_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace nlcwfs {
+namespace {
+
+/// One of a choice's values; `values` in the order in which the key lists its words.
+template <class Value>
+Value choice_of(const Configuration& configuration, std::string_view key,
+                std::initializer_list<std::pair<std::string_view, Value>> values) {
+  for (const auto& [word, value] : values) {
+    if (configuration.choice(key) == word) return value;
+  }
+  throw std::logic_error(fmt::format("{} has a choice without a meaning", key));
+}
+
+/// A list of whole numbers, or all of a range.
+std::vector<int> whole_numbers(const Domain& domain) {
+  std::vector<int> numbers;
+  if (const auto* list = std::get_if<std::vector<double>>(&domain)) {
+    for (const double value : *list) {
+      numbers.push_back(static_cast<int>(value));
+    }
+  } else {
+    const auto& range = std::get<ValueRange>(domain);
+    for (auto number = static_cast<int>(range.lower); number <= range.upper; ++number) {
+      numbers.push_back(number);
+    }
+  }
+  return numbers;
+}
+
+InitialGuess initial_guess_of(const Configuration& configuration, std::string_view key) {
+  return choice_of<InitialGuess>(
+      configuration, key, {{"flat", InitialGuess::flat}, {"centroid", InitialGuess::centroid}});
+}
+
+bool is_matched(const Configuration& configuration) {
+  return configuration.choice("simulation.truth") == "matched";
+}
+
+std::vector<PhaseScreen> simulated_screens(const Configuration& configuration,
+                                           const Telescope& telescope, const Seeing& seeing,
+                                           int samples, int count, std::string_view seed_key,
+                                           const std::function<bool(int)>& watch = {}) {
+  return generate_screens(
+      TurbulenceScreenGenerator(seeing, samples, telescope.diameter, configuration.seed(seed_key)),
+      count, watch);
+}
+
+/// By default four times the search's, so that the verification adds little noise of its own.
+int verification_screens(const Configuration& configuration) {
+  return configuration.is_set("verify.screens")
+             ? configuration.integer("verify.screens")
+             : std::max(64, 4 * configuration.integer("screens.count"));
+}
+
+std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
+                                           int samples, std::vector<std::string>& notes) {
+  FitsCube cube = read_fits_cube(file, "screens.file", FitsGaps::allowed);
+  double radians_per_unit = 1.0;
+  if (cube.unit == "m") {
+    radians_per_unit = 2.0 * std::numbers::pi / telescope.wavelength;
+  } else if (!cube.unit.empty() && cube.unit != "rad") {
+    throw InputError("screens.file", file,
+                     fmt::format("BUNIT must be 'rad' or 'm', but is '{}'", cube.unit));
+  }
+  const auto size = static_cast<int>(cube.slices.front().rows());
+  if (size < 2) throw InputError("screens.file", file, "at least 2 x 2 samples");
+  require_memory("screens.file", file, double(cube.slices.size()), samples);
+  if (size != samples) {
+    notes.push_back(fmt::format("{}: {} x {} samples were resampled to the truth's {} x {}", file,
+                                size, size, samples, samples));
+  }
+  const PupilMask pupil = pupil_mask(size, telescope.central_obscuration);
+  for (Image<double>& screen : cube.slices) {
+    if (!(screen.isFinite() || (screen.isNaN() && !pupil)).all()) {
+      throw InputError("screens.file", file,
+                       "has values that are not finite; only outside the pupil may there be none");
+    }
+    // Continued beyond the pupil, so that what is resampled at its edge comes from within.
+    screen = with_gaps_filled(screen) * radians_per_unit;
+    if (size != samples) screen = resampled_screen(screen, samples);
+  }
+  return std::move(cube.slices);
+}
+
+/// The wavefronts of the section screens in a seeing.
+std::vector<PhaseScreen> screens_in(const Configuration& configuration, const Telescope& telescope,
+                                    const Seeing& seeing, std::vector<std::string>& notes,
+                                    int most = std::numeric_limits<int>::max(),
+                                    const std::function<bool(int)>& watch = {}) {
+  const int samples = truth_samples(configuration);
+  const std::size_t seeings = seeings_of(configuration, telescope).size();
+  if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
+    if (seeings > 1) {
+      throw InputError("screens.file", file,
+                       "its screens have one seeing; give one value of the section seeing");
+    }
+    return screens_from_file(file, telescope, samples, notes);
+  }
+  const int count = configuration.integer("screens.count");
+  require_memory("screens.count", std::to_string(count), double(seeings) * count, samples);
+  return simulated_screens(configuration, telescope, seeing, samples, std::min(count, most),
+                           "screens.seed", watch);
+}
+
+/// What replaces the design's light; nothing where there is one light alone.
+std::vector<std::optional<double>> lights_of(const Configuration& configuration) {
+  const std::vector<double> photons = configuration.numbers("detector.photons");
+  const std::vector<double> rates = configuration.numbers("detector.photon_rate");
+  if (photons.size() == 1 && rates.size() == 1) return {std::nullopt};
+  if (photons.size() > 1 && configuration.value_text("detector.photon_rate") != "0") {
+    throw InputError("detector.photon_rate", configuration.value_text("detector.photon_rate"),
+                     fmt::format("set only one of it and detector.photons, which is {}",
+                                 configuration.value_text("detector.photons")));
+  }
+  if (std::ranges::count(rates, 0.0) > 0 && rates.size() > 1) {
+    throw InputError("detector.photon_rate", configuration.value_text("detector.photon_rate"),
+                     "several lights must all be above 0");
+  }
+  const std::vector<double>& lights = photons.size() > 1 ? photons : rates;
+  return {lights.begin(), lights.end()};
+}
+
+/// "D/r0 = 4, 100000 photons"
+std::string condition_name(const Telescope& telescope, const Seeing& seeing,
+                           const Detector& detector) {
+  std::string name = fmt::format("D/r0 = {:.4g}", telescope.diameter / seeing.fried_parameter);
+  if (detector.photon_rate > 0.0) {
+    name += fmt::format(", {:g} photons/s", detector.photon_rate);
+  } else if (detector.photons > 0.0) {
+    name += fmt::format(", {:g} photons", detector.photons);
+  }
+  return name;
+}
+
+/// Each seeing, with each light.
+/// @param screens_in  makes the screens of a seeing
+template <class ScreensIn>
+std::vector<Condition> conditions_of(const Configuration& configuration, const Telescope& telescope,
+                                     const SimulationOptions& options,
+                                     const ScreensIn& screens_in) {
+  std::vector<Condition> conditions;
+  for (const Seeing& seeing : seeings_of(configuration, telescope)) {
+    const auto simulation =
+        std::make_shared<const Simulation>(telescope, screens_in(seeing), options);
+    for (const std::optional<double> light : lights_of(configuration)) {
+      Condition condition{.name = {},
+                          .simulation = simulation,
+                          .light = light,
+                          .fried_parameter = seeing.fried_parameter};
+      condition.name =
+          condition_name(telescope, seeing, condition.lit(design_of(configuration)).detector);
+      conditions.push_back(std::move(condition));
+    }
+  }
+  return conditions;
+}
+
+/// At D/r0 = 0.1 a wavefront has a fortieth of a wave RMS (Noll): below, a unit was forgotten.
+void require_turbulence(const Configuration& configuration, double d_over_r0) {
+  constexpr double least = 0.1;
+  constexpr double greatest = 1e4;
+  // A ratio has no unit, and bounds of its own.
+  if (configuration.is_set("seeing.d_over_r0")) return;
+  if (d_over_r0 >= least && d_over_r0 <= greatest) return;
+  for (const auto& [key, unit] : {std::pair("seeing.fwhm", "; it is in arcsec"),
+                                  std::pair("seeing.fried_parameter", "; r0 has its unit: 12cm")}) {
+    if (!configuration.is_set(key)) continue;
+    throw InputError(key, configuration.value_text(key),
+                     fmt::format("a D/r0 from {:g} to {:g}, this is {:.2g}{}", least, greatest,
+                                 d_over_r0, unit));
+  }
+}
+
+/// Refuses what needs the servo lag where nothing says how fast the turbulence is.
+void require_wind(const Configuration& configuration,
+                  std::initializer_list<std::string_view> keys) {
+  if (configuration.is_set("objective.wind_speed") ||
+      configuration.is_set("objective.greenwood_frequency")) {
+    return;
+  }
+  for (const std::string_view key : keys) {
+    const std::string& text = configuration.value_text(key);
+    if (text.find("error_budget") == std::string::npos &&
+        text.find("servo_wfe") == std::string::npos) {
+      continue;
+    }
+    throw InputError(key, text,
+                     "needs objective.wind_speed or objective.greenwood_frequency, such as "
+                     "--objective.wind_speed 10");
+  }
+}
+
+/// See DesignTrial::spec: how the trial is made, and every value that is set.
+std::string spec_of(std::string_view kind, std::string_view precision_key,
+                    const Configuration& configuration) {
+  std::string spec = fmt::format("{} {}\n", kind, precision_key);
+  for (const ConfigurationKey& key : configuration_keys()) {
+    const std::string& value = configuration.value_text(key.name);
+    if (!value.empty()) spec += fmt::format("{} {}\n", key.name, value);
+  }
+  return spec;
+}
+
+}  // namespace
+
+void require_memory(std::string_view key, const std::string& value, double count, int samples) {
+  const double bytes_per_screen = double(samples) * samples * sizeof(double);
+  if (count * bytes_per_screen <= max_image_memory) return;
+  throw InputError(
+      key, value,
+      fmt::format(
+          "{:.0f} screens of {} x {} samples take {:.3g} GiB of memory; at most {:.0f} of them "
+          "fit into the {:g} GiB allowed",
+          count, samples, samples, count * bytes_per_screen / std::exp2(30),
+          std::floor(max_image_memory / bytes_per_screen), max_image_memory / std::exp2(30)));
+}
+
+Telescope telescope_of(const Configuration& configuration) {
+  const Telescope telescope{
+      .diameter = configuration.length("telescope.diameter"),
+      .wavelength = configuration.length("telescope.wavelength"),
+      .central_obscuration = configuration.number("telescope.central_obscuration"),
+      .relay_beam_diameter = configuration.optional_length("telescope.relay_beam_diameter")};
+  telescope.validate();
+  return telescope;
+}
+
+void scale_default_planes(Configuration& configuration) {
+  const Telescope papers = telescope_of(Configuration());
+  const Telescope telescope = telescope_of(configuration);
+  if (telescope.diameter == papers.diameter && telescope.wavelength == papers.wavelength) return;
+  const std::string by_default = Configuration().source("sensor.planes");
+  Configuration preset;
+  preset.apply_preset("paper");
+  const std::string by_preset = preset.source("sensor.planes");
+  for (const char* key : {"sensor.planes", "baseline.planes"}) {
+    const std::string& source = configuration.source(key);
+    if (source != by_default && source != by_preset) continue;
+    std::vector<double> planes = configuration.lengths(key);
+    for (double& plane : planes) plane = scaled_distance(plane, papers, telescope);
+    configuration.set(key, fmt::format("{}", fmt::join(planes, ",")),
+                      source + ", at the paper's Fresnel numbers");
+  }
+}
+
+void set_trade_defaults(Configuration& configuration) {
+  const auto set = [&](std::string_view key, const std::string& value) {
+    if (configuration.source(key) == Configuration().source(key)) {
+      configuration.set(key, value, "by the command trade");
+    }
+  };
+  const auto is_any_set = [&](std::initializer_list<const char*> keys) {
+    return std::ranges::any_of(keys, [&](const char* key) { return configuration.is_set(key); });
+  };
+  set("search.plane_count", "2:5");
+  if (is_any_set({"search.z1", "search.z2", "search.z3", "search.z4", "search.z5", "search.z6"})) {
+    set("search.layout", "free");
+  }
+  set("search.initial_guess", "flat,centroid");
+  if (!is_any_set({"search.relaxation_start", "search.relaxation_end"})) {
+    set("search.relaxation", "-0.3:0.7");
+  }
+  // A matched truth shares one grid with detector and reconstruction.
+  if (is_matched(configuration)) return;
+  set("search.reconstruction_oversampling", "1,2");
+  const Telescope telescope = telescope_of(configuration);
+  const SensorDesign configured = design_of(configuration);
+  std::vector<int> suitable;
+  for (const int divisor : {4, 2, 1}) {
+    SensorDesign design = configured;
+    design.detector.pupil_pixels /= divisor;
+    if (design.detector.pupil_pixels * divisor != configured.detector.pupil_pixels) continue;
+    try {
+      simulated_design(design, telescope, simulation_options_of(configuration, "search.precision"),
+                       truth_samples(configuration));
+      suitable.push_back(design.detector.pupil_pixels);
+    } catch (const InputError&) {
+      // Its windows are no whole numbers of these pixels. Where the configured design itself does
+      // not suit, that is said when it is simulated.
+      continue;
+    }
+  }
+  if (suitable.size() > 1) set("search.pupil_pixels", fmt::format("{}", fmt::join(suitable, ",")));
+}
+
+std::vector<DesignMetric> trade_objectives_of(const Configuration& configuration) {
+  const std::string key = "trade.objectives";
+  const std::string& text = configuration.text(key);
+  std::vector<DesignMetric> objectives = parse_metrics(key, text);
+  if (objectives.size() < 2) {
+    throw InputError(key, text, "at least two metrics; for one there is the command optimize");
+  }
+  for (const DesignMetric& objective : objectives) {
+    if (objective.name == "seconds") {
+      throw InputError(key, text,
+                       "seconds are measured, so the search could not be repeated; take "
+                       "model_seconds");
+    }
+  }
+  require_wind(configuration, {key});
+  return objectives;
+}
+
+void require_one_condition(const Configuration& configuration) {
+  for (const char* key : {"seeing.d_over_r0", "seeing.fried_parameter", "seeing.fwhm",
+                          "detector.photons", "detector.photon_rate"}) {
+    const std::string& text = configuration.value_text(key);
+    if (text.find(',') == std::string::npos) continue;
+    throw InputError(key, text,
+                     "one value for this command; several are for those that compare designs");
+  }
+}
+
+std::vector<Seeing> seeings_of(const Configuration& configuration, const Telescope& telescope) {
+  std::vector<double> fried_parameters;
+  if (configuration.is_set("seeing.d_over_r0")) {
+    for (const double ratio : configuration.numbers("seeing.d_over_r0")) {
+      fried_parameters.push_back(telescope.diameter / ratio);
+    }
+  } else {
+    const double reference =
+        configuration.optional_length("seeing.reference_wavelength").value_or(telescope.wavelength);
+    const auto add = [&](double fried_parameter) {
+      fried_parameters.push_back(
+          scaled_fried_parameter(fried_parameter, reference, telescope.wavelength));
+    };
+    if (configuration.is_set("seeing.fwhm")) {
+      for (const double fwhm : configuration.numbers("seeing.fwhm")) {
+        add(fried_parameter_of_fwhm(fwhm, reference));
+      }
+    } else {
+      std::ranges::for_each(configuration.lengths("seeing.fried_parameter"), add);
+    }
+  }
+  std::vector<Seeing> seeings;
+  for (const double fried_parameter : fried_parameters) {
+    require_turbulence(configuration, telescope.diameter / fried_parameter);
+    seeings.push_back({.fried_parameter = fried_parameter,
+                       .outer_scale = configuration.optional_length("seeing.outer_scale")});
+    seeings.back().validate();
+  }
+  return seeings;
+}
+
+Seeing seeing_of(const Configuration& configuration, const Telescope& telescope) {
+  return seeings_of(configuration, telescope).front();
+}
+
+SensorDesign design_of(const Configuration& configuration) {
+  const auto [relaxation_start, relaxation_end] = configuration.ramp("reconstruction.relaxation");
+  return {.planes = configuration.lengths("sensor.planes"),
+          .detector = {.pupil_pixels = configuration.integer("detector.pupil_pixels"),
+                       .window = configuration.number("detector.window"),
+                       .photons = configuration.numbers("detector.photons").front(),
+                       .read_noise = configuration.number("detector.read_noise"),
+                       .photon_rate = configuration.numbers("detector.photon_rate").front(),
+                       .exposure = configuration.optional_time("detector.exposure").value_or(0.0)},
+          .reconstruction = {
+              .max_loops = configuration.integer("reconstruction.max_loops"),
+              .tolerance = configuration.length("reconstruction.tolerance"),
+              .stopping = choice_of<StoppingRule>(configuration, "reconstruction.stopping",
+                                                  {{"difference", StoppingRule::difference},
+                                                   {"rms_change", StoppingRule::rms_change}}),
+              .relaxation_start = relaxation_start,
+              .relaxation_end = relaxation_end,
+              .initial_guess = initial_guess_of(configuration, "reconstruction.initial_guess"),
+              .window = configuration.number("reconstruction.window"),
+              .outside = choice_of<OutsideDetector>(
+                  configuration, "reconstruction.outside",
+                  {{"free", OutsideDetector::free}, {"zero", OutsideDetector::zero}}),
+              .oversampling = configuration.integer("reconstruction.oversampling"),
+              .unwrapping = choice_of<UnwrappingMethod>(
+                  configuration, "reconstruction.unwrapping",
+                  {{"quality_guided", UnwrappingMethod::quality_guided},
+                   {"least_squares", UnwrappingMethod::least_squares}})}};
+}
+
+SensorDesign baseline_of(const Configuration& configuration) {
+  SensorDesign design = design_of(configuration);
+  const auto [relaxation_start, relaxation_end] = configuration.ramp("baseline.relaxation");
+  design.planes = configuration.lengths("baseline.planes");
+  validate_planes("baseline.planes", design.planes, telescope_of(configuration));
+  design.reconstruction.relaxation_start = relaxation_start;
+  design.reconstruction.relaxation_end = relaxation_end;
+  design.reconstruction.initial_guess = initial_guess_of(configuration, "baseline.initial_guess");
+  return design;
+}
+
+DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
+  DesignCost cost{
+      .kind = choice_of<CostKind>(
+          configuration, "objective.kind",
+          {{"weighted", CostKind::weighted}, {"error_budget", CostKind::error_budget}}),
+      .wfe = pixels_vary ? WavefrontErrorKind::total : WavefrontErrorKind::residual,
+      .wfe_scale = configuration.length("objective.wfe_scale"),
+      .loop_weight = configuration.number("objective.loop_weight"),
+      .time_weight = configuration.number("objective.time_weight"),
+      .terms = parse_terms("objective.terms", configuration.text("objective.terms")),
+      .penalties =
+          parse_penalties("objective.penalties", configuration.text("objective.penalties")),
+      .limits = parse_limits("objective.limits", configuration.text("objective.limits")),
+      .operation = {.wavelength = configuration.length("telescope.wavelength"),
+                    .fft_rate = configuration.number("objective.fft_rate"),
+                    .time_per_loop = configuration.optional_time("objective.time_per_loop"),
+                    .readout_time_per_pixel =
+                        *configuration.optional_time("objective.readout_time_per_pixel"),
+                    .greenwood_frequency =
+                        configuration.optional_number("objective.greenwood_frequency"),
+                    .wind_speed = configuration.optional_number("objective.wind_speed")},
+      .aggregate = {.kind = choice_of<AggregateKind>(configuration, "objective.aggregate",
+                                                     {{"mean", AggregateKind::mean},
+                                                      {"worst", AggregateKind::worst},
+                                                      {"quantile", AggregateKind::quantile},
+                                                      {"cvar", AggregateKind::cvar}}),
+                    .level = configuration.number("objective.level")}};
+  if (configuration.is_set("objective.wfe")) {
+    cost.wfe = choice_of<WavefrontErrorKind>(configuration, "objective.wfe",
+                                             {{"residual", WavefrontErrorKind::residual},
+                                              {"wrapped", WavefrontErrorKind::wrapped},
+                                              {"total", WavefrontErrorKind::total}});
+  }
+  if (cost.operation.greenwood_frequency && cost.operation.wind_speed) {
+    throw InputError("objective.wind_speed", configuration.value_text("objective.wind_speed"),
+                     fmt::format("set only one of it and objective.greenwood_frequency, which is "
+                                 "{}",
+                                 configuration.value_text("objective.greenwood_frequency")));
+  }
+  require_wind(configuration,
+               {"objective.kind", "objective.terms", "objective.penalties", "objective.limits"});
+  cost.validate();
+  return cost;
+}
+
+DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
+                            SensorDesign base) {
+  DesignSpaceOptions options{
+      .base = std::move(base),
+      .layout = choice_of<Layout>(configuration, "search.layout",
+                                  {{"symmetric", Layout::symmetric}, {"free", Layout::free}}),
+      .plane_counts = whole_numbers(*configuration.domain("search.plane_count")),
+      .orders = configuration.orders("search.order")};
+  for (const VisitingOrder& order : options.orders) {
+    if (std::ranges::count(options.plane_counts, static_cast<int>(order.size())) > 0) continue;
+    throw InputError("search.order", fmt::format("{}", fmt::join(order, "")),
+                     fmt::format("an order of {} planes, see search.plane_count",
+                                 fmt::join(options.plane_counts, " or ")));
+  }
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (!key.name.starts_with("search.") || key.kind != Kind::domain ||
+        key.name == "search.plane_count") {
+      continue;
+    }
+    if (const auto domain = configuration.domain(key.name)) {
+      options.domains.emplace(key.name.substr(std::string_view("search.").size()), *domain);
+    }
+  }
+  if (options.domains.contains("exposure") && options.base.detector.photon_rate == 0.0) {
+    throw InputError("search.exposure", configuration.value_text("search.exposure"),
+                     "nothing without detector.photon_rate, such as --detector.photon_rate 1e8");
+  }
+  return {telescope, std::move(options)};
+}
+
+void set_design(Configuration& configuration, const SensorDesign& design, const DesignSpace& space,
+                std::string_view source) {
+  const auto set = [&](std::string_view key, const std::string& value) {
+    configuration.set(key, value, source);
+  };
+  const ReconstructionOptions& reconstruction = design.reconstruction;
+  set("sensor.planes", fmt::format("{}", fmt::join(design.planes, ",")));
+  if (space.decides("pupil_pixels")) {
+    set("detector.pupil_pixels", fmt::format("{}", design.detector.pupil_pixels));
+  }
+  if (space.decides("detector_window")) {
+    set("detector.window", fmt::format("{}", design.detector.window));
+  }
+  if (space.decides("exposure")) {
+    set("detector.exposure", fmt::format("{}", design.detector.exposure));
+  }
+  if (space.decides("reconstruction_window")) {
+    set("reconstruction.window", fmt::format("{}", reconstruction.window));
+  }
+  if (space.decides("relaxation") || space.decides("relaxation_start") ||
+      space.decides("relaxation_end")) {
+    set("reconstruction.relaxation",
+        fmt::format("{}:{}", reconstruction.relaxation_start, reconstruction.relaxation_end));
+  }
+  if (space.decides("initial_guess")) {
+    set("reconstruction.initial_guess",
+        reconstruction.initial_guess == InitialGuess::flat ? "flat" : "centroid");
+  }
+  if (space.decides("reconstruction_oversampling")) {
+    set("reconstruction.oversampling", fmt::format("{}", reconstruction.oversampling));
+  }
+  if (space.decides("tolerance")) {
+    set("reconstruction.tolerance", fmt::format("{}", reconstruction.tolerance));
+  }
+}
+
+int truth_samples(const Configuration& configuration) {
+  return configuration.integer(is_matched(configuration) ? "detector.pupil_pixels"
+                                                         : "simulation.pupil_samples");
+}
+
+LightSource light_source_of(const Configuration& configuration) {
+  LightSource source{
+      .bands = configuration.bands("source.bands"),
+      .is_split = configuration.choice("source.division") == "split",
+      .wavelengths = configuration.integer("source.wavelengths"),
+      .aberration = choice_of<ChromaticAberration>(
+          configuration, "source.aberration",
+          {{"path", ChromaticAberration::path}, {"phase", ChromaticAberration::phase}})};
+  if (configuration.is_set("source.weights")) {
+    source.weights = configuration.numbers("source.weights");
+  }
+  return source;
+}
+
+SimulationOptions simulation_options_of(const Configuration& configuration,
+                                        std::string_view precision_key) {
+  return {.truth = choice_of<TruthModel>(configuration, "simulation.truth",
+                                         {{"extended", TruthModel::extended},
+                                          {"matched", TruthModel::matched},
+                                          {"periodic", TruthModel::periodic}}),
+          .precision = choice_of<Precision>(
+              configuration, precision_key,
+              {{"double", Precision::double_precision}, {"single", Precision::single_precision}}),
+          .noise_seed = configuration.seed("screens.seed"),
+          .source = light_source_of(configuration),
+          .time_limit = configuration.optional_time("simulation.time_limit")
+                            .value_or(std::numeric_limits<double>::infinity())};
+}
+
+std::vector<PhaseScreen> screens_of(const Configuration& configuration,
+                                    std::vector<std::string>& notes, int most,
+                                    const std::function<bool(int)>& watch) {
+  const Telescope telescope = telescope_of(configuration);
+  return screens_in(configuration, telescope, seeing_of(configuration, telescope), notes, most,
+                    watch);
+}
+
+DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
+                     std::vector<std::string>& notes, bool pixels_vary) {
+  const Telescope telescope = telescope_of(configuration);
+  const SimulationOptions options = simulation_options_of(configuration, precision_key);
+  // Before the screens, which may take long.
+  DesignCost cost = cost_of(configuration, pixels_vary);
+  simulated_design(design_of(configuration), telescope, options, truth_samples(configuration));
+  DesignTrial trial(conditions_of(configuration, telescope, options,
+                                  [&](const Seeing& seeing) {
+                                    return screens_in(configuration, telescope, seeing, notes);
+                                  }),
+                    std::move(cost));
+  trial.spec = spec_of("search", precision_key, configuration);
+  return trial;
+}
+
+namespace {
+
+/// On screens of verify.seed.
+/// @param key  that asks for so many screens, for the error where they take too much memory
+DesignTrial trial_on_fresh_screens(const Configuration& configuration, SimulationOptions options,
+                                   int samples, std::string_view key, int count, bool pixels_vary) {
+  const Telescope telescope = telescope_of(configuration);
+  const auto seeings = double(seeings_of(configuration, telescope).size());
+  require_memory(key, std::to_string(count), seeings * count, samples);
+  options.noise_seed = configuration.seed("verify.seed");
+  DesignTrial trial(conditions_of(configuration, telescope, options,
+                                  [&](const Seeing& seeing) {
+                                    return simulated_screens(configuration, telescope, seeing,
+                                                             samples, count, "verify.seed");
+                                  }),
+                    cost_of(configuration, pixels_vary));
+  trial.keeps_failures = false;
+  return trial;
+}
+
+}  // namespace
+
+DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
+                           bool pixels_vary) {
+  constexpr int least_screens = 8;
+  DesignTrial trial = trial_on_fresh_screens(
+      configuration, simulation_options_of(configuration, precision_key),
+      truth_samples(configuration), "screens.count",
+      std::max(least_screens, configuration.integer("screens.count")), pixels_vary);
+  trial.spec = spec_of("fresh", precision_key, configuration);
+  return trial;
+}
+
+DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary) {
+  const std::uint64_t seed = configuration.seed("verify.seed");
+  const int factor = configuration.integer("verify.truth_factor");
+  if (seed == configuration.seed("screens.seed")) {
+    throw InputError("verify.seed", seed,
+                     "another seed than screens.seed, or the screens would not be fresh");
+  }
+  SimulationOptions options = simulation_options_of(configuration, "simulation.precision");
+  options.precision = Precision::double_precision;
+  if (factor > 1) options.truth = TruthModel::extended;
+  const double window = configuration.number(configuration.choice("simulation.truth") == "extended"
+                                                 ? "detector.window"
+                                                 : "reconstruction.window");
+  const double search_width = window * truth_samples(configuration);
+  if (factor * search_width > max_grid_width) {
+    throw InputError(
+        "verify.truth_factor", factor,
+        fmt::format("at most {:g}: the search's true field is {:g} samples wide, and "
+                    "at most {} are allowed",
+                    std::floor(max_grid_width / search_width), search_width, max_grid_width));
+  }
+  DesignTrial trial =
+      trial_on_fresh_screens(configuration, options, truth_samples(configuration) * factor,
+                             "verify.screens", verification_screens(configuration), pixels_vary);
+  trial.spec = spec_of("verification", "simulation.precision", configuration);
+  return trial;
+}
+
+DesignTrial trial_from_spec(const std::string& spec) {
+  std::istringstream lines(spec);
+  std::string kind;
+  std::string precision_key;
+  lines >> kind >> precision_key;
+  Configuration configuration;
+  std::string key;
+  for (std::string value; lines >> key && std::getline(lines >> std::ws, value);) {
+    configuration.set(key, value, "in a trial's specification");
+  }
+  std::vector<std::string> ignored_notes;
+  if (kind == "search") return trial_of(configuration, precision_key, ignored_notes);
+  if (kind == "fresh") return fresh_trial_of(configuration, precision_key);
+  return verification_trial_of(configuration);
+}
+
+}  // namespace nlcwfs

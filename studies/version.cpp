@@ -1,7 +1,0 @@
-#include "studies/version.hpp"
-
-namespace nlcwfs {
-
-std::string_view version() { return NLCWFS_VERSION; }
-
-}  // namespace nlcwfs
