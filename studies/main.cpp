@@ -2,12 +2,12 @@
 #include "results/archive/output_folder.hpp"
 #include "studies/command_line/as_typed.hpp"
 #include "studies/command_line/command_line.hpp"
-#include "studies/command_line/commands.hpp"
 #include "studies/command_line/help_text.hpp"
-#include "studies/commands/report.hpp"
 #include "studies/ranks/ranks.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/interrupt.hpp"
 #include "studies/run/log.hpp"
+#include "studies/run/page_data.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/version.hpp"
 #include "studies/settings/setup.hpp"
@@ -34,52 +34,53 @@ enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 3 };
 constexpr int designs_in_flight = 128;
 
 /// Runs a command, or prints its configuration.
-void run(nlcwfs::CommandLine& command_line, const nlcwfs::Ranks& ranks) {
+void run(nlcwfs::Request& request, const nlcwfs::Ranks& ranks) {
   using namespace nlcwfs;
-  scale_default_planes(command_line.configuration);
-  if (command_line.command == "trade") set_trade_defaults(command_line.configuration);
-  if (command_line.dump_config) {
-    fmt::print("{}", command_line.configuration.dump());
+  scale_default_planes(request.configuration);
+  if (request.command->set_defaults != nullptr) {
+    request.command->set_defaults(request.configuration);
+  }
+  if (request.dump_config) {
+    fmt::print("{}", request.configuration.dump());
     return;
   }
-  start_log(command_line.log_level);
-  if (command_line.output) OutputFolder::require_free(*command_line.output);
-  if (command_line.resume && is_complete(*command_line.resume)) {
+  start_log(request.log_level);
+  if (request.output) OutputFolder::require_free(*request.output);
+  if (request.resume && is_complete(*request.resume)) {
     // The page comes last.
-    if (!std::filesystem::exists(*command_line.resume / "report.html")) {
-      write_page(*command_line.resume);
+    if (!std::filesystem::exists(*request.resume / "report.html")) {
+      write_page(*request.resume, *request.command);
     }
-    fmt::print("{} is complete, nothing is left to do.\n", command_line.resume->string());
+    fmt::print("{} is complete, nothing is left to do.\n", request.resume->string());
     return;
   }
-  const int wanted = command_line.threads > 0 ? command_line.threads : ranks.cores();
+  const int wanted = request.threads > 0 ? request.threads : ranks.cores();
   const int threads = std::min(wanted, tbb::this_task_arena::max_concurrency());
   // Before the runner's threads, with which TBB would settle for fewer.
   const tbb::global_control limit(
       tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(ranks.count() > 1 ? threads + designs_in_flight : threads));
-  command_line.runner = ranks.runner(command_line.threads);
+  request.runner = ranks.runner(request.threads);
   // What is not a trial has no more threads than without ranks.
   tbb::task_arena arena(threads);
-  arena.execute([&] { command_of(command_line.command).run(command_line); });
+  arena.execute([&] { request.command->run(request); });
 }
 
 void run(int argc, const char* const* argv, const nlcwfs::Ranks& ranks) {
   using namespace nlcwfs;
-  CommandLine command_line = parse_command_line(argc, argv);
-  if (command_line.version) {
+  Request request = parse_command_line(argc, argv);
+  if (request.version) {
     fmt::print("nlcwfs {}\n", version());
     return;
   }
-  if (command_line.help) {
-    fmt::print("{}", command_line.command.empty() ? program_help()
-                                                  : command_help(command_of(command_line.command)));
+  if (request.help) {
+    fmt::print("{}", request.command == nullptr ? program_help() : command_help(*request.command));
     return;
   }
   try {
-    run(command_line, ranks);
+    run(request, ranks);
   } catch (const InputError& error) {
-    throw as_typed(error, command_line.configuration);
+    throw as_typed(error, request.configuration);
   }
 }
 

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -84,26 +83,12 @@ OutputFolder OutputFolder::of_earlier_run(const std::filesystem::path& path) {
   return folder;
 }
 
-void OutputFolder::remove_results() const {
+void OutputFolder::remove_results(std::span<const RunFile> files) const {
   for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-    if (!entry.is_directory() && is_result(entry.path().filename())) {
+    if (!entry.is_directory() && is_result(entry.path().filename().string(), files)) {
       std::filesystem::remove(entry.path());
     }
   }
-}
-
-bool is_result(const std::filesystem::path& name) {
-  static const std::regex names(
-      "(summary|law)\\.json|report\\.(html|md)|(best|knee)\\.cfg"
-      "|(claims|front|law|loops|numerics|screens|search|sensitivity|sweep)\\.csv"
-      "|(design|front|loops|search|sensitivity|(typical|worst)-(images|phases))\\.(svg|png)"
-      "|(typical|worst)-(images|phases)\\.fits"
-      "|(map|figure|response)-.*\\.(csv|fits|svg|png)|response\\.(csv|svg|png)"
-      "|.*\\.(data|gnuplot|log)\\.part");
-  const auto is_named = [&](const std::filesystem::path& file) {
-    return std::regex_match(file.string(), names);
-  };
-  return is_named(name) || (name.extension() == ".part" && is_named(name.stem()));
 }
 
 void OutputFolder::sync() const {

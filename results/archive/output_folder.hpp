@@ -1,7 +1,10 @@
 #pragma once
 
+#include "results/archive/run_files.hpp"
+
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -33,8 +36,9 @@ class OutputFolder {
 
   /// Removes what an earlier run has left in it but its configuration and archive; files that have
   /// no names of results stay.
+  /// @param files  of its command
   /// @throws std::runtime_error with path and cause
-  void remove_results() const;
+  void remove_results(std::span<const RunFile> files) const;
 
   /// Waits until all files in it are on disk.
   /// @throws std::runtime_error with path and cause
@@ -50,9 +54,5 @@ class OutputFolder {
 
   std::filesystem::path path_;
 };
-
-/// Whether a run that can be resumed makes files of this name again, or has left an unfinished one:
-/// all of its files but config.cfg and archive.sqlite have such names.
-bool is_result(const std::filesystem::path& name);
 
 }  // namespace nlcwfs

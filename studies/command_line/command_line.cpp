@@ -2,8 +2,8 @@
 
 #include "model/input_error.hpp"
 #include "results/archive/archive.hpp"
-#include "studies/command_line/commands.hpp"
 #include "studies/command_line/program_options.hpp"
+#include "studies/commands/commands.hpp"
 #include "studies/settings/text.hpp"
 #include "studies/settings/units.hpp"
 
@@ -50,7 +50,7 @@ po::options_description known_options() {
 /// The command and the names of its arguments.
 std::vector<std::string> usage_words(const Command& command) {
   std::vector<std::string> words{command.name};
-  words.insert(words.end(), command.arguments.begin(), command.arguments.end());
+  for (const CommandArgument& argument : command.arguments) words.push_back(argument.name);
   return words;
 }
 
@@ -94,9 +94,9 @@ std::vector<po::option> parse_options(int argc, const char* const* argv,
 }
 
 /// Reads what is no option: the command, then its arguments.
-void parse_positional(const std::string& value, CommandLine& result,
+void parse_positional(const std::string& value, Request& result,
                       const po::options_description& options) {
-  if (value == "-h" || (value == "help" && result.command.empty())) {
+  if (value == "-h" || (value == "help" && result.command == nullptr)) {
     result.help = true;
     return;
   }
@@ -106,8 +106,8 @@ void parse_positional(const std::string& value, CommandLine& result,
                      "--sensor.planes=-180km,180km");
   }
   if (value.starts_with('-')) refuse_unknown(value, options);
-  if (!result.command.empty()) {
-    const Command& command = command_of(result.command);
+  if (result.command != nullptr) {
+    const Command& command = *result.command;
     if (result.arguments.size() == command.arguments.size()) {
       throw InputError("command line", one_line(value),
                        fmt::format("nothing may follow the command {} but options; a value is one "
@@ -116,41 +116,38 @@ void parse_positional(const std::string& value, CommandLine& result,
     }
     if (value.empty()) {
       throw InputError(
-          command.arguments[result.arguments.size()], one_line(""),
+          command.arguments[result.arguments.size()].name, one_line(""),
           fmt::format("must not be empty: nlcwfs {}", fmt::join(usage_words(command), " ")));
     }
     result.arguments.push_back(value);
     return;
   }
-  const auto names = command_names();
-  if (std::ranges::count(names, value) == 0) {
+  result.command = find_command(value);
+  if (result.command == nullptr) {
+    const std::vector<std::string> names = command_names();
     const std::string shown = one_line(value);
     throw InputError("command line", shown,
                      fmt::format("no command of nlcwfs, which has {}{}", fmt::join(names, ", "),
                                  suggestion(shown, names, "; nlcwfs --help explains them")));
   }
-  result.command = value;
 }
 
-/// @throws InputError where the command or its arguments are missing, or it has no such flag
-void require_whole_command(const CommandLine& command_line) {
-  if (command_line.command.empty()) {
+/// @throws InputError where the command or its arguments are missing
+void require_whole_command(const Request& request) {
+  if (request.command == nullptr) {
     throw InputError("command line", one_line(""),
                      fmt::format("a command must stand there, one of {}; nlcwfs --help explains "
                                  "them",
                                  fmt::join(command_names(), ", ")));
   }
-  const Command& command = command_of(command_line.command);
-  if (command_line.verify && command.name != "advise") {
-    throw InputError("command line", "--verify",
-                     fmt::format("only advise takes it; leave it away with {}", command.name));
-  }
-  const std::size_t given = command_line.arguments.size();
-  if (given == command.arguments.size() || command_line.dump_config) return;
-  throw InputError(
-      "command line", given == 0 ? one_line("") : one_line(command_line.arguments[0]),
-      fmt::format("{} must follow {}: nlcwfs {}", fmt::join(command.arguments, " and "),
-                  command.name, fmt::join(usage_words(command), " ")));
+  const Command& command = *request.command;
+  const std::size_t given = request.arguments.size();
+  if (given == command.arguments.size() || request.dump_config) return;
+  const std::vector<std::string> words = usage_words(command);
+  throw InputError("command line", given == 0 ? one_line("") : one_line(request.arguments[0]),
+                   fmt::format("{} must follow {}: nlcwfs {}",
+                               fmt::join(words.begin() + 1, words.end(), " and "), command.name,
+                               fmt::join(words, " ")));
 }
 
 /// Refuses a folder whose archive a command cannot go on with.
@@ -177,7 +174,7 @@ void require_archive_of(const Command& command, const std::filesystem::path& fol
 /// Refuses a folder that has no trials to take over.
 void require_trials(const Command& command, const std::filesystem::path& folder) {
   const std::string shown = one_line(folder.string());
-  if (!command.resumable || command.name == "reproduce") {
+  if (command.resumption != Resumption::by_trials) {
     throw InputError("--reuse", shown,
                      fmt::format("{} keeps no trials; leave it away", command.name));
   }
@@ -195,12 +192,12 @@ void require_trials(const Command& command, const std::filesystem::path& folder)
 
 /// The configuration of the run to go on with.
 /// @param configuring  the options that the command line has besides and must not have
-Configuration resumed_configuration(const CommandLine& command_line,
+Configuration resumed_configuration(const Request& request,
                                     const std::vector<std::string>& configuring) {
-  const std::filesystem::path& folder = *command_line.resume;
+  const std::filesystem::path& folder = *request.resume;
   const std::string shown = one_line(folder.string());
-  const Command& command = command_of(command_line.command);
-  if (!command.resumable) {
+  const Command& command = *request.command;
+  if (command.resumption == Resumption::none) {
     throw InputError("--resume", shown,
                      fmt::format("{} cannot go on with a run; begin it anew with --config {}",
                                  command.name, one_line((folder / "config.cfg").string())));
@@ -239,16 +236,6 @@ LogLevel parse_log_level(const std::string& value) {
   return level->second;
 }
 
-/// An option of one command that stands for a key of the configuration.
-struct ShortForm {
-  std::string option;
-  std::string command;
-  std::string key;
-};
-
-const std::vector<ShortForm> short_forms{{"figure", "reproduce", "reproduce.figures"},
-                                         {"frames", "reconstruct", "frames.file"}};
-
 int parse_threads(const std::string& value) {
   const auto threads = parse_integer(value);
   if (!threads || *threads < 0 || *threads > 4096) {
@@ -260,37 +247,36 @@ int parse_threads(const std::string& value) {
 /// What the words of a command line say, one after the other, and then together.
 class CommandLineReader {
  public:
-  CommandLine read(int argc, const char* const* argv);
+  Request read(int argc, const char* const* argv);
 
  private:
   void take(const po::option& option);
   void take_value(const std::string& key, const std::string& value);
-  /// Makes values of the options that stand for keys.
-  void resolve_short_forms();
+  /// Takes the options of the command alone: flags, and values for keys.
+  void take_own_options();
   void configure();
 
   po::options_description known_ = known_options();
-  CommandLine result_;
+  Request result_;
   std::optional<std::string> preset_;
   std::vector<std::string> files_;
-  std::map<std::string, std::vector<std::string>> short_values_;
+  std::map<std::string, std::vector<std::string>> own_values_;
   std::vector<std::pair<std::string, std::string>> values_;
   std::set<std::string> seen_;
 };
 
 void CommandLineReader::take(const po::option& option) {
-  static const std::map<std::string, bool CommandLine::*> flags{
-      {"verify", &CommandLine::verify},
-      {"help", &CommandLine::help},
-      {"version", &CommandLine::version},
-      {"dump-config", &CommandLine::dump_config}};
+  static const std::map<std::string, bool Request::*> flags{{"help", &Request::help},
+                                                            {"version", &Request::version},
+                                                            {"dump-config", &Request::dump_config}};
   const std::string& key = option.string_key;
   const std::string value = option.value.empty() ? "" : option.value.front();
   if (option.position_key >= 0) {
     parse_positional(value, result_, known_);
     return;
   }
-  if (!seen_.insert(key).second && key != "config" && key != "figure") {
+  const ProgramOption* known = find_program_option(key);
+  if (!seen_.insert(key).second && !(known != nullptr && known->repeats)) {
     throw InputError("command line",
                      one_line(fmt::format("{}", fmt::join(option.original_tokens, " "))),
                      "given twice; keep one of them");
@@ -300,6 +286,8 @@ void CommandLineReader::take(const po::option& option) {
     result_.*flag->second = true;
   } else if (key == "quiet") {
     result_.log_level = LogLevel::warning;
+  } else if (known != nullptr && known->value_name.empty()) {
+    own_values_[key];
   } else if (value.empty() || value.starts_with("--")) {
     refuse_missing_value("--" + key);
   } else {
@@ -310,8 +298,8 @@ void CommandLineReader::take(const po::option& option) {
 void CommandLineReader::take_value(const std::string& key, const std::string& value) {
   if (key == "config") {
     files_.push_back(value);
-  } else if (std::ranges::count(short_forms, key, &ShortForm::option) > 0) {
-    short_values_[key].push_back(value);
+  } else if (const auto* known = find_program_option(key); known && known->command) {
+    own_values_[key].push_back(value);
   } else if (key == "preset") {
     preset_ = value;
   } else if (key == "output") {
@@ -332,21 +320,26 @@ void CommandLineReader::take_value(const std::string& key, const std::string& va
   }
 }
 
-void CommandLineReader::resolve_short_forms() {
-  for (const ShortForm& form : short_forms) {
-    if (!short_values_.contains(form.option)) continue;
-    const std::string list = fmt::format("{}", fmt::join(short_values_[form.option], ","));
-    const std::string shown = one_line(fmt::format("--{} {}", form.option, list));
-    if (result_.command != form.command) {
-      throw InputError(
-          "command line", shown,
-          fmt::format("only {} takes it; leave it away with {}", form.command, result_.command));
-    }
-    if (seen_.contains(form.key)) {
+void CommandLineReader::take_own_options() {
+  for (const auto& [name, values] : own_values_) {
+    const ProgramOption& option = *find_program_option(name);
+    const std::string list = fmt::format("{}", fmt::join(values, ","));
+    const std::string shown =
+        one_line(fmt::format("--{}{}{}", name, list.empty() ? "" : " ", list));
+    if (option.command != result_.command) {
       throw InputError("command line", shown,
-                       fmt::format("{} is given too; keep one of them", form.key));
+                       fmt::format("only {} takes it; leave it away with {}", option.command->name,
+                                   result_.command->name));
     }
-    values_.emplace_back(form.key, list);
+    if (option.key.empty()) {
+      result_.flags.insert(name);
+      continue;
+    }
+    if (seen_.contains(option.key)) {
+      throw InputError("command line", shown,
+                       fmt::format("{} is given too; keep one of them", option.key));
+    }
+    values_.emplace_back(option.key, list);
   }
 }
 
@@ -367,7 +360,7 @@ void CommandLineReader::configure() {
   }
 }
 
-CommandLine CommandLineReader::read(int argc, const char* const* argv) {
+Request CommandLineReader::read(int argc, const char* const* argv) {
   for (const po::option& option : parse_options(argc, argv, known_)) take(option);
   if (seen_.contains("quiet") && seen_.contains("log-level")) {
     throw InputError("command line", "--quiet",
@@ -375,15 +368,15 @@ CommandLine CommandLineReader::read(int argc, const char* const* argv) {
   }
   if (result_.help || result_.version) return std::move(result_);
   require_whole_command(result_);
-  resolve_short_forms();
-  if (result_.reuse) require_trials(command_of(result_.command), *result_.reuse);
+  take_own_options();
+  if (result_.reuse) require_trials(*result_.command, *result_.reuse);
   configure();
   return std::move(result_);
 }
 
 }  // namespace
 
-CommandLine parse_command_line(int argc, const char* const* argv) {
+Request parse_command_line(int argc, const char* const* argv) {
   return CommandLineReader().read(argc, argv);
 }
 

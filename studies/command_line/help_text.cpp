@@ -1,7 +1,7 @@
 #include "studies/command_line/help_text.hpp"
 
-#include "studies/command_line/commands.hpp"
 #include "studies/command_line/program_options.hpp"
+#include "studies/commands/commands.hpp"
 #include "studies/settings/configuration.hpp"
 #include "studies/settings/text.hpp"
 
@@ -104,7 +104,7 @@ std::string values_text(const Command& command) {
 /// "nlcwfs compare SWEEP OPTIMIZE".
 std::string usage_words(const Command& command) {
   std::string words = "nlcwfs " + command.name;
-  for (const std::string& argument : command.arguments) words += ' ' + argument;
+  for (const CommandArgument& argument : command.arguments) words += ' ' + argument.name;
   return words;
 }
 
@@ -129,8 +129,8 @@ std::string program_help() {
       "on the command line or in a file of [section] and key = value lines; --dump-config writes "
       "such a file with all keys. The command line overrides files, files override the preset.");
   text += "\nFor a start:\n";
-  for (const char* name : {"optimize", "evaluate"}) {
-    text += fmt::format("  {}\n", command_of(name).examples.front());
+  for (const Command& command : commands()) {
+    if (command.is_for_a_start) text += fmt::format("  {}\n", command.examples.front());
   }
   return text;
 }

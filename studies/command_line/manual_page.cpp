@@ -1,8 +1,10 @@
 #include "studies/command_line/manual_page.hpp"
 
-#include "studies/command_line/commands.hpp"
 #include "studies/command_line/help_text.hpp"
 #include "studies/command_line/program_options.hpp"
+#include "studies/commands/commands.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/version.hpp"
 #include "studies/settings/configuration.hpp"
 #include "studies/settings/text.hpp"
@@ -66,9 +68,9 @@ std::string entry(std::string_view word, std::string_view values, std::string_vi
                      sentences(text));
 }
 
-std::string example(std::string_view command_line) {
+std::string example(std::string_view request) {
   std::string lines;
-  for (const std::string& line : example_lines(command_line, columns)) {
+  for (const std::string& line : example_lines(request, columns)) {
     lines += (lines.empty() ? "    " : " \\e\n        ") + escaped(line);
   }
   return fmt::format(".nf\n{}\n.fi\n", lines);
@@ -80,7 +82,9 @@ std::string commands_text() {
   for (const Command& command : commands()) {
     if (command.group != group) text += fmt::format(".SS {}\n", escaped(command.group));
     group = command.group;
-    text += entry(command.name, fmt::format("{}", fmt::join(command.arguments, " ")),
+    std::vector<std::string> arguments;
+    for (const CommandArgument& argument : command.arguments) arguments.push_back(argument.name);
+    text += entry(command.name, fmt::format("{}", fmt::join(arguments, " ")),
                   fmt::format("{}. {}", with_capital(command.description), command.about));
   }
   return text;
@@ -163,6 +167,22 @@ std::string manual_page() {
          examples_text();
 }
 
-void run_manual(const CommandLine& /*command_line*/) { fmt::print("{}", manual_page()); }
+namespace {
+
+void run_manual(const Request& /*request*/) { fmt::print("{}", manual_page()); }
+
+}  // namespace
+
+Command manual_command() {
+  return {.name = "manual",
+          .group = "The paper and this machine",
+          .description = "print the manual page, nlcwfs(1)",
+          .about =
+              "It has every command, option and key on one page. An installed nlcwfs has it as "
+              "man nlcwfs.",
+          .keys = {},
+          .examples = {"nlcwfs manual | man -l -"},
+          .run = run_manual};
+}
 
 }  // namespace nlcwfs

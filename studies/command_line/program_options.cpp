@@ -1,8 +1,8 @@
 #include "studies/command_line/program_options.hpp"
 
-#include "studies/settings/configuration.hpp"
+#include "studies/commands/commands.hpp"
 
-#include <sstream>
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,52 +24,64 @@ std::vector<std::string> preset_choices() {
   return names;
 }
 
-/// What reproduce runs by default: all that it knows.
-std::vector<std::string> figures() {
-  std::vector<std::string> names;
-  std::istringstream list(Configuration().text("reproduce.figures"));
-  for (std::string name; std::getline(list, name, ',');) names.push_back(name);
-  return names;
-}
-
 /// Of what is configured and leaves results.
 bool is_of_runs(const Command& command) { return !command.keys.empty(); }
 bool is_of_all(const Command& /*command*/) { return true; }
+bool is_of_resumable(const Command& command) { return command.resumption != Resumption::none; }
+bool is_of_trials(const Command& command) { return command.resumption == Resumption::by_trials; }
+
+std::vector<ProgramOption> all_options() {
+  std::vector<ProgramOption> options{
+      {{.name = "config",
+        .value_name = "FILE",
+        .description = "read a configuration file; of several, the later wins",
+        .repeats = true},
+       is_of_runs},
+      {{"preset",
+        "NAME",
+        "start from a named set of values: " + preset_names(),
+        {},
+        preset_choices()},
+       is_of_runs},
+      {{"output", "DIR", "write the results there [results/<command>-<n>]"}, is_of_runs},
+      {{"resume", "DIR", "go on with the interrupted run in this folder, as it is configured"},
+       is_of_resumable},
+      {{"reuse", "DIR", "simulate nothing again that the run in this folder has simulated alike"},
+       is_of_trials}};
+  for (const Command& command : commands()) {
+    for (const CommandOption& option : command.options) {
+      options.push_back({option, nullptr, &command});
+    }
+  }
+  options.insert(
+      options.end(),
+      {{{"threads", "N", "use this many cores, 0 = all [0]; of several ranks each so many"},
+        is_of_runs},
+       {{"log-level",
+         "LEVEL",
+         "what goes to standard error while the command runs: error, warning, info (progress) or "
+         "debug (each stage and design too) [info]",
+         {},
+         {"error", "warning", "info", "debug"}},
+        is_of_runs},
+       {{"quiet", "", "no progress: the same as --log-level warning"}, is_of_runs},
+       {{"dump-config", "", "print every key with its value as a configuration file, and stop"},
+        is_of_runs},
+       {{"help", "", "print this text, and stop"}, is_of_all},
+       {{"version", "", "print the version, and stop"}, is_of_all}});
+  return options;
+}
 
 }  // namespace
 
 const std::vector<ProgramOption>& program_options() {
-  static const std::vector<ProgramOption> options{
-      {"config", "FILE", "read a configuration file; of several, the later wins", is_of_runs},
-      {"preset", "NAME", "start from a named set of values: " + preset_names(), is_of_runs,
-       preset_choices()},
-      {"output", "DIR", "write the results there [results/<command>-<n>]", is_of_runs},
-      {"resume", "DIR", "go on with the interrupted run in this folder, as it is configured",
-       [](const Command& command) { return command.resumable; }},
-      {"reuse", "DIR", "simulate nothing again that the run in this folder has simulated alike",
-       [](const Command& command) { return command.resumable && command.name != "reproduce"; }},
-      {"figure", "N",
-       "run only this figure of the paper, or another part that reproduce.figures knows; may be "
-       "given several times",
-       [](const Command& command) { return command.name == "reproduce"; }, figures()},
-      {"frames", "FILE", "read the measured frames of this FITS file, as frames.file",
-       [](const Command& command) { return command.name == "reconstruct"; }},
-      {"verify", "", "simulate the design on fresh screens, as the section verify says",
-       [](const Command& command) { return command.name == "advise"; }},
-      {"threads", "N", "use this many cores, 0 = all [0]; of several ranks each so many",
-       is_of_runs},
-      {"log-level",
-       "LEVEL",
-       "what goes to standard error while the command runs: error, warning, info (progress) or "
-       "debug (each stage and design too) [info]",
-       is_of_runs,
-       {"error", "warning", "info", "debug"}},
-      {"quiet", "", "no progress: the same as --log-level warning", is_of_runs},
-      {"dump-config", "", "print every key with its value as a configuration file, and stop",
-       is_of_runs},
-      {"help", "", "print this text, and stop", is_of_all},
-      {"version", "", "print the version, and stop", is_of_all}};
+  static const std::vector<ProgramOption> options = all_options();
   return options;
+}
+
+const ProgramOption* find_program_option(std::string_view name) {
+  const auto option = std::ranges::find(program_options(), name, &ProgramOption::name);
+  return option == program_options().end() ? nullptr : &*option;
 }
 
 std::string value_name(const ConfigurationKey& key) {

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "studies/command_line/commands.hpp"
+#include "studies/run/command.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nlcwfs {
@@ -10,16 +11,21 @@ namespace nlcwfs {
 struct ConfigurationKey;
 
 /// An option of the command line that is no configuration key.
-struct ProgramOption {
-  std::string name;                       ///< without its two dashes
-  std::string value_name;                 ///< empty for a flag
-  std::string description;                ///< what it does
-  bool (*is_of)(const Command& command);  ///< whether a command takes it
-  std::vector<std::string> choices = {};  ///< the words that it may have; empty where others may
+struct ProgramOption : CommandOption {
+  bool (*is_of_kind)(const Command& command) = nullptr;  ///< of commands that take it
+  const Command* command = nullptr;                      ///< where it is of one alone
+
+  /// Whether a command takes it.
+  bool is_of(const Command& other) const {
+    return command == nullptr ? is_of_kind(other) : command == &other;
+  }
 };
 
 /// Every such option, in the order of the help.
 const std::vector<ProgramOption>& program_options();
+
+/// Null where there is none of this name.
+const ProgramOption* find_program_option(std::string_view name);
 
 /// What stands for a key's value in the help: "LENGTH", "NUMBERS", ...
 std::string value_name(const ConfigurationKey& key);

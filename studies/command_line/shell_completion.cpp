@@ -1,9 +1,10 @@
 #include "studies/command_line/shell_completion.hpp"
 
 #include "model/input_error.hpp"
-#include "studies/command_line/command_line.hpp"
-#include "studies/command_line/commands.hpp"
 #include "studies/command_line/program_options.hpp"
+#include "studies/commands/commands.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/request.hpp"
 #include "studies/settings/configuration.hpp"
 #include "studies/settings/text.hpp"
 
@@ -64,9 +65,6 @@ std::vector<std::string> words_of(const Command* command) {
   return words;
 }
 
-/// Whether it prints what is made here; the arguments of all other commands are folders.
-bool is_completion(const Command& command) { return command.run == run_completion; }
-
 std::string first_comment(std::string_view shell) {
   return fmt::format("# Completion of nlcwfs for {0}, made by nlcwfs completion {0}.\n", shell);
 }
@@ -102,12 +100,12 @@ std::string candidates() {
   for (const Command& command : commands()) {
     text += fmt::format("    {}:-*) candidates='{}' ;;\n", command.name,
                         fmt::join(words_of(&command), " "));
-    if (is_completion(command)) {
-      text += fmt::format("    {}:*) candidates='{}' ;;\n", command.name,
-                          fmt::join(completed_shells(), " "));
-    } else if (!command.arguments.empty()) {
-      text += fmt::format("    {}:*) names=folders ;;\n", command.name);
-    }
+    // All arguments of a command are of one kind.
+    if (command.arguments.empty()) continue;
+    const std::vector<std::string>& choices = command.arguments.front().choices;
+    text += choices.empty() ? fmt::format("    {}:*) names=folders ;;\n", command.name)
+                            : fmt::format("    {}:*) candidates='{}' ;;\n", command.name,
+                                          fmt::join(choices, " "));
   }
   text += fmt::format("    :-*) candidates='{}' ;;\n", fmt::join(words_of(nullptr), " "));
   text += fmt::format("    :*) candidates='{}' ;;\n  esac\n", fmt::join(command_names(), " "));
@@ -175,10 +173,11 @@ std::string fish_completion() {
     text += fmt::format("complete -c nlcwfs -n __fish_use_subcommand -a {} -d {}\n", command.name,
                         in_quotes(command.description));
     if (!command.arguments.empty()) {
-      text += fmt::format(
-          "complete -c nlcwfs -n '__fish_seen_subcommand_from {}' -a '{}'\n", command.name,
-          is_completion(command) ? fmt::format("{}", fmt::join(completed_shells(), " "))
-                                 : "(__fish_complete_directories)");
+      const std::vector<std::string>& choices = command.arguments.front().choices;
+      text += fmt::format("complete -c nlcwfs -n '__fish_seen_subcommand_from {}' -a '{}'\n",
+                          command.name,
+                          choices.empty() ? "(__fish_complete_directories)"
+                                          : fmt::format("{}", fmt::join(choices, " ")));
     }
   }
   for (const Completed& option : all_options()) {
@@ -220,13 +219,31 @@ std::string shell_completion(std::string_view shell) {
   return fish_completion();
 }
 
-void run_completion(const CommandLine& command_line) {
-  const std::string& shell = command_line.arguments.front();
+namespace {
+
+void run_completion(const Request& request) {
+  const std::string& shell = request.arguments.front();
   if (std::ranges::count(completed_shells(), shell) == 0) {
     throw InputError("SHELL", one_line(shell),
                      fmt::format("one of {}", fmt::join(completed_shells(), ", ")));
   }
   fmt::print("{}", shell_completion(shell));
+}
+
+}  // namespace
+
+Command completion_command() {
+  return {
+      .name = "completion",
+      .group = "The paper and this machine",
+      .description = "print what lets a shell complete commands, keys and their words",
+      .about =
+          "Knows bash, zsh and fish; source <(nlcwfs completion bash) turns it on in this bash. "
+          "An installed nlcwfs has them in their usual places.",
+      .keys = {},
+      .examples = {"nlcwfs completion fish > ~/.config/fish/completions/nlcwfs.fish"},
+      .run = run_completion,
+      .arguments = {{"SHELL", completed_shells()}}};
 }
 
 }  // namespace nlcwfs

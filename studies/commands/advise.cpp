@@ -1,11 +1,18 @@
+// advise: The planes that the scaling law gives for the configured telescope and seeing, and what
+// they are predicted to reach.
 #include "model/input_error.hpp"
 #include "objectives/design_trial.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 #include "studies/search/verified_ranking.hpp"
 #include "studies/settings/law_file.hpp"
@@ -127,10 +134,8 @@ std::string predictions_table(const std::array<Prediction, 2>& predictions) {
   return table + '\n';
 }
 
-}  // namespace
-
-void run_advise(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_advise(const Request& request) {
+  const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
@@ -141,9 +146,9 @@ void run_advise(const CommandLine& command_line) {
   const SensorDesign design = advised_design(configuration, file.law, telescope, seeing);
   std::vector<std::string> notes = differing_conditions(configuration, file.conditions);
   std::optional<DesignTrial> verification;
-  if (command_line.verify) verification = verification_trial_of(configuration);
+  if (request.flags.contains("verify")) verification = verification_trial_of(configuration);
   if (verification) {
-    verification->run_on(command_line.runner);
+    verification->run_on(request.runner);
     try {
       verification->checked(design);
     } catch (const InputError& error) {
@@ -152,14 +157,14 @@ void run_advise(const CommandLine& command_line) {
     }
   }
   const bool is_elsewhere = !notes.empty();
-  RunRecord record(command_line);
+  RunRecord record(request);
 
   auto predictions = predictions_of(file.law, d_over_r0, telescope);
   Json design_json = to_json(design, telescope, seeing.fried_parameter);
   std::optional<TriedDesign> verified;
   if (verification) {
     Progress progress = verification_progress(*verification, 1);
-    verified = verified_design(design, *verification, record.archive(), interruptible(progress));
+    verified = verified_design(design, *verification, record, interruptible(progress));
     record.note_missing_screens(*verified, *verification);
     design_json["cost"] = to_json(mean_and_standard_error(verified->costs));
     design_json["performance"] = to_json(verified->performances.front());
@@ -216,6 +221,45 @@ void run_advise(const CommandLine& command_line) {
   fmt::print("\nadvised.cfg holds this design, and a search from it: nlcwfs optimize --config {}\n",
              record.folder().file("advised.cfg").string());
   record.close();
+}
+
+std::string of_advise(const Json& summary) {
+  const Json& predicted = summary.at("predicted");
+  std::string text = fmt::format("Predicted: residual WFE {} nm after {} fractional loops",
+                                 figure_text(predicted, "residual_wfe_nm"),
+                                 figure_text(predicted, "fractional_loops"));
+  if (summary.at("design").contains("performance")) {
+    text += fmt::format(". Simulated: {}", reached_text(summary.at("design"), "fresh screens"));
+  }
+  return text + (predicted.at("extrapolated").get<bool>()
+                     ? ". This D/r0 is outside the law's range: an extrapolation."
+                     : ".");
+}
+
+}  // namespace
+
+Command advise_command() {
+  return {
+      .name = "advise",
+      .group = "Laws and scaling",
+      .description = "tell a telescope's planes from the scaling law; --verify simulates them",
+      .about =
+          "Gives the planes of a telescope at once, with the error and the loops that the law "
+          "predicts; with --verify they are simulated on fresh screens too.",
+      .keys = keys::joined(
+          {keys::site,
+           {"source", "screens.seed", "sensor", "detector", "reconstruction", "simulation"},
+           keys::judgement,
+           keys::fresh_screens,
+           {"advise"}}),
+      .examples = {"nlcwfs advise --telescope.diameter 8.2 --seeing.fried_parameter 1m --verify"},
+      .run = run_advise,
+      .options = {{.name = "verify",
+                   .description =
+                       "simulate the design on fresh screens, as the section verify says"}},
+      .files =
+          joined({{{"advised.cfg", FileRole::design}, {"law.json"}}, closer_look_files(false)}),
+      .verdict = of_advise};
 }
 
 }  // namespace nlcwfs

@@ -1,11 +1,16 @@
+// benchmark: How fast this machine is at the configuration.
 #include "objectives/design_metric.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/text/design_text.hpp"
-#include "studies/command_line/commands.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/commands.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/interrupt.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/stopwatch.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/settings/setup.hpp"
 
 #include <algorithm>
@@ -324,17 +329,15 @@ void print_reading(const Benchmark& benchmark, double memory) {
       "objective.fft_rate is what the time in a cost should be predicted with on this machine.\n");
 }
 
-}  // namespace
-
-void run_benchmark(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_benchmark(const Request& request) {
+  const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
   Benchmark benchmark(configuration);
   std::optional<RunRecord> record;
-  if (command_line.output) {
-    record.emplace(command_line);
+  if (request.output) {
+    record.emplace(request);
   } else {
-    print_ignored_keys(command_line);
+    print_ignored_keys(request);
   }
   const InterruptWatch watch;
 
@@ -367,6 +370,38 @@ void run_benchmark(const CommandLine& command_line) {
                            {"peak_memory_mib", memory}}}});
   fmt::print("\n");
   record->close();
+}
+
+/// A number without more digits than timings hold, and without an exponent.
+std::string two_digits(double value) {
+  const double unit = value < 100.0 ? 1.0 : std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return value < 100.0 ? fmt::format("{:.2g}", value)
+                       : fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
+std::string of_benchmark(const Json& summary) {
+  const Json& timing = summary.at("timing");
+  const int threads = integer_from_json(timing.at("threads"));
+  return fmt::format("{} loops per second in double precision, {} in single, on {} thread{}.",
+                     two_digits(number_from_json(timing.at("double").at("loops_per_second"))),
+                     two_digits(number_from_json(timing.at("single").at("loops_per_second"))),
+                     threads, threads == 1 ? "" : "s");
+}
+
+}  // namespace
+
+Command benchmark_command() {
+  return {
+      .name = "benchmark",
+      .group = "The paper and this machine",
+      .description = "time a configuration on this machine; writes files only with --output",
+      .about =
+          "Takes about five seconds and says what loops, designs and a whole search of the "
+          "configuration cost on this machine.",
+      .keys = keys::joined({keys::site, keys::simulation, {"search.budget", "search.time_limit"}}),
+      .examples = {"nlcwfs benchmark --detector.pupil_pixels 128 --threads 8"},
+      .run = run_benchmark,
+      .verdict = of_benchmark};
 }
 
 }  // namespace nlcwfs

@@ -1,6 +1,9 @@
+// compare: The best designs of a sweep and of a search, on screens that neither has seen, and what
+// finding them took.
 #include "model/input_error.hpp"
 #include "objectives/design_comparison.hpp"
 #include "results/archive/archive.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/pictures/grid_picture.hpp"
 #include "results/tables/design_summary.hpp"
 #include "results/tables/json_numbers.hpp"
@@ -9,8 +12,11 @@
 #include "results/tables/trial_summary.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/search/verified_ranking.hpp"
 #include "studies/settings/setup.hpp"
 #include "studies/settings/text.hpp"
@@ -294,19 +300,17 @@ Json effort_object(const FinishedRun& run) {
       {"designs", run.designs}, {"reconstructions", run.reconstructions}, {"seconds", run.seconds}};
 }
 
-}  // namespace
-
-void run_compare(const CommandLine& command_line) {
-  const FinishedRun sweep = finished_run("SWEEP", "sweep", command_line.arguments.at(0));
-  const FinishedRun optimize = finished_run("OPTIMIZE", "optimize", command_line.arguments.at(1));
+void run_compare(const Request& request) {
+  const FinishedRun sweep = finished_run("SWEEP", "sweep", request.arguments.at(0));
+  const FinishedRun optimize = finished_run("OPTIMIZE", "optimize", request.arguments.at(1));
   require_comparable(sweep, optimize);
-  CommandLine compared = command_line;
-  compared.configuration = comparison_configuration(command_line.configuration, sweep, optimize);
+  Request compared = request;
+  compared.configuration = comparison_configuration(request.configuration, sweep, optimize);
   const Configuration& configuration = compared.configuration;
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   DesignTrial trial = verification_trial_of(configuration, pixels_vary(sweep, optimize));
-  trial.run_on(command_line.runner);
+  trial.run_on(request.runner);
   for (const FinishedRun* run : {&sweep, &optimize}) (void)trial.checked(run->best);
   RunRecord record(compared);
 
@@ -314,8 +318,8 @@ void run_compare(const CommandLine& command_line) {
   TriedDesign found;
   {
     Progress progress = verification_progress(trial, 2);
-    swept = verified_design(sweep.best, trial, record.archive(), interruptible(progress));
-    found = verified_design(optimize.best, trial, record.archive(), interruptible(progress));
+    swept = verified_design(sweep.best, trial, record, interruptible(progress));
+    found = verified_design(optimize.best, trial, record, interruptible(progress));
   }
   const std::size_t screens = std::min(swept.costs.size(), found.costs.size());
   swept = trial.on_first_screens(std::move(swept), screens);
@@ -371,6 +375,38 @@ void run_compare(const CommandLine& command_line) {
   fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n\n", "time", duration_text(sweep.seconds),
              duration_text(optimize.seconds), seconds_ratio);
   record.close();
+}
+
+std::string of_compare(const Json& summary) {
+  const MeanAndError difference = mean_from_json(summary.at("difference"));
+  const auto verdict = summary.at("verdict").get<std::string>();
+  const std::string costs =
+      fmt::format("the optimizer's design costs {} {} than the sweep's, screen by screen",
+                  with_error({std::abs(difference.mean), difference.standard_error}),
+                  difference.mean < 0.0 ? "less" : "more");
+  return verdict == "indistinguishable"
+             ? fmt::format("The two designs cannot be told apart: {}.", costs)
+             : fmt::format("The optimizer's design is {}: {}.", verdict, costs);
+}
+
+}  // namespace
+
+Command compare_command() {
+  return {
+      .name = "compare",
+      .group = "The best design",
+      .description =
+          "hold a search against a sweep: both best designs on fresh screens, and what each cost",
+      .about =
+          "Takes the folders of a sweep and of a search for the same telescope, simulates the "
+          "best design of each on screens that neither has seen, and gives the paired "
+          "difference of their costs.",
+      .keys = keys::fresh_screens,
+      .examples = {"nlcwfs compare results/sweep-1 results/optimize-1"},
+      .run = run_compare,
+      .arguments = {{"SWEEP"}, {"OPTIMIZE"}},
+      .files = {{"path.svg", FileRole::picture}, {"path.png"}},
+      .verdict = of_compare};
 }
 
 }  // namespace nlcwfs

@@ -1,12 +1,18 @@
+// convergence: How one design's wavefront error falls from loop to loop.
 #include "model/input_error.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/pictures/curve_picture.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/design_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/settings/setup.hpp"
 
 #include <algorithm>
@@ -112,28 +118,26 @@ std::string loops_text(const std::vector<LoopResiduals>& loops) {
   return text;
 }
 
-}  // namespace
-
-void run_convergence(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_convergence(const Request& request) {
+  const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
   std::vector<std::string> notes;
   DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
-  trial.run_on(command_line.runner);
+  trial.run_on(request.runner);
   const SensorDesign design = trial.checked(design_of(configuration));
-  RunRecord record(command_line);
+  RunRecord record(request);
 
   const Simulation& simulation = *trial.conditions().front().simulation;
   const int screens = trial.screen_count();
   const Performance followed = [&] {
     Progress progress("convergence", screens, "screens followed", "then to the tolerance",
-                      command_line.whole);
+                      request.whole);
     return simulation.follow(design, interruptible(progress));
   }();
   const TriedDesign tried = [&] {
-    Progress progress("convergence to the tolerance", screens, "screens", "", command_line.whole);
+    Progress progress("convergence to the tolerance", screens, "screens", "", request.whole);
     return trial.run(design, {}, interruptible(progress));
   }();
   if (const std::size_t done = std::min(followed.screens.size(), tried.costs.size());
@@ -162,6 +166,34 @@ void run_convergence(const CommandLine& command_line) {
                configuration.value_text("reconstruction.tolerance"),
                performance_table({{"mean +- standard error", &performance, tried.costs}}));
   record.close();
+}
+
+std::string of_convergence(const Json& summary) {
+  const Json& residuals = summary.at("residual_after_loops_nm");
+  const std::size_t loops = residuals.at("mean").size();
+  return fmt::format(
+      "After {} loops the residual WFE of {} wavefronts is {} nm; the stopping rule ends after {}.",
+      loops, summary.at("aberrations_nm").size(),
+      with_error({number_from_json(residuals.at("mean").at(loops - 1)),
+                  number_from_json(residuals.at("standard_error").at(loops - 1))}),
+      figure_text(summary.at("design").at("performance"), "loops"));
+}
+
+}  // namespace
+
+Command convergence_command() {
+  return {.name = "convergence",
+          .group = "One design",
+          .description = "follow one design's residual wavefront error from loop to loop",
+          .about =
+              "Runs all of reconstruction.max_loops on each wavefront, whatever the tolerance, "
+              "and gives the residual wavefront error after each loop as a table and a picture.",
+          .keys = keys::joined({keys::site, keys::simulation, keys::judgement}),
+          .examples = {"nlcwfs convergence --source.bands 400nm:800nm --source.division split"},
+          .run = run_convergence,
+          .files = joined({{{"convergence.csv", FileRole::table}, {"screens.csv", FileRole::table}},
+                           picture_files({"convergence"})}),
+          .verdict = of_convergence};
 }
 
 }  // namespace nlcwfs

@@ -1,19 +1,27 @@
+// evaluate: One design's performance on the configured screens.
+#include "results/archive/run_files.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/design_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/evaluation_log.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/stopwatch.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 #include "studies/settings/setup.hpp"
 
 #include <fmt/format.h>
 
 namespace nlcwfs {
-void run_evaluate(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+namespace {
+
+void run_evaluate(const Request& request) {
+  const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
@@ -21,12 +29,12 @@ void run_evaluate(const CommandLine& command_line) {
   DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
   const SensorDesign design = trial.checked(design_of(configuration));
   trial.keeps_failures = false;
-  RunRecord record(command_line);
+  RunRecord record(request);
   record.adopt(trial);
 
   const Stopwatch stopwatch;
   const TriedDesign tried = [&] {
-    Progress progress("evaluate", trial.screen_count(), "screens", "", command_line.whole);
+    Progress progress("evaluate", trial.screen_count(), "screens", "", request.whole);
     return trial.run(design, {}, interruptible(progress));
   }();
   const double seconds = stopwatch.seconds();
@@ -42,7 +50,7 @@ void run_evaluate(const CommandLine& command_line) {
                    .performance = to_json(performance).dump()});
   record.folder().write("screens.csv", screens_table(performance));
   nlohmann::ordered_json summary{{"design", to_json(tried, trial)}};
-  if (!command_line.silent) {
+  if (!request.silent) {
     const CloserLook look = look_closer(trial, tried, record.folder());
     summary["closer_look"] = look.summary;
     notes.insert(notes.end(), look.notes.begin(), look.notes.end());
@@ -61,6 +69,33 @@ void run_evaluate(const CommandLine& command_line) {
   record.print("{}{}", limits_text(tried, trial), captured_energy_warnings(design, performance));
   record.print("\n");
   record.close();
+}
+
+std::string of_evaluate(const nlohmann::ordered_json& summary) {
+  const nlohmann::ordered_json& design = summary.at("design");
+  return fmt::format("{} planes: {}; {:.3g} % of the reconstructions converged.",
+                     design.at("planes_m").size(), reached_text(design, "screens"),
+                     100.0 * number_from_json(design.at("performance").at("converged_fraction")));
+}
+
+}  // namespace
+
+Command evaluate_command() {
+  return {.name = "evaluate",
+          .group = "One design",
+          .description = "measure one design: wavefront error, loops and time with standard errors",
+          .about =
+              "Simulates the sensor of the sections sensor, detector and reconstruction on the "
+              "wavefronts of the section screens, and says how well and how fast it recovers "
+              "them. Every metric of every wavefront is in screens.csv.",
+          .keys = keys::joined({keys::site, keys::simulation, keys::judgement}),
+          .examples = {"nlcwfs evaluate --telescope.diameter 1.8 --seeing.fried_parameter 24cm",
+                       "nlcwfs evaluate --config results/optimize-1/best.cfg --screens.count 256"},
+          .run = run_evaluate,
+          .resumption = Resumption::by_trials,
+          .files = joined({closer_look_files(), {{"screens.csv", FileRole::table}}}),
+          .verdict = of_evaluate,
+          .is_for_a_start = true};
 }
 
 }  // namespace nlcwfs

@@ -1,9 +1,14 @@
+// export: A run's archive as flat tables.
 #include "model/input_error.hpp"
 #include "results/archive/archive.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/fits/fits_table.hpp"
 #include "results/tables/evaluation_table.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "results/tables/json_numbers.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/settings/text.hpp"
 
 #include <map>
@@ -65,14 +70,12 @@ std::set<std::string> formats_of(const Configuration& configuration) {
   return formats;
 }
 
-}  // namespace
-
-void run_export(const CommandLine& command_line) {
-  const std::set<std::string> formats = formats_of(command_line.configuration);
-  const std::filesystem::path source = command_line.arguments.at(0);
+void run_export(const Request& request) {
+  const std::set<std::string> formats = formats_of(request.configuration);
+  const std::filesystem::path source = request.arguments.at(0);
   const Json list = evaluations_of(source);
   const FlatTable table = evaluation_table(list);
-  RunRecord record(command_line);
+  RunRecord record(request);
 
   std::vector<std::string> files;
   for (const std::string& format : formats) {
@@ -108,6 +111,32 @@ void run_export(const CommandLine& command_line) {
                counts.empty() ? "" : fmt::format(" ({})", fmt::join(counts, ", ")), failed);
   record.print("{}: {} columns each\n\n", fmt::join(files, ", "), table.columns.size());
   record.close();
+}
+
+std::string of_export(const Json& summary) {
+  return fmt::format("{} evaluations, {} of them failed.",
+                     integer_from_json(summary.at("evaluations")),
+                     integer_from_json(summary.at("failed")));
+}
+
+}  // namespace
+
+Command export_command() {
+  return {.name = "export",
+          .group = "Results of a run",
+          .description = "write a run's archive as flat tables: CSV, JSON, FITS",
+          .about =
+              "Takes the folder of a run, or its archive.sqlite, and writes a row for every design "
+              "that was evaluated, with its planes, its properties and every metric with its "
+              "standard error.",
+          .keys = {"export"},
+          .examples = {"nlcwfs export results/optimize-1 --export.formats csv,fits"},
+          .run = run_export,
+          .arguments = {{"RUN"}},
+          .files = {{"evaluations.csv", FileRole::table, false},
+                    {"evaluations.json"},
+                    {"evaluations.fits"}},
+          .verdict = of_export};
 }
 
 }  // namespace nlcwfs

@@ -1,11 +1,17 @@
+// law: The scaling law of the best designs at several seeings.
 #include "model/input_error.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/design_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/search/design_search.hpp"
 #include "studies/settings/law_file.hpp"
 #include "studies/settings/setup.hpp"
@@ -152,17 +158,15 @@ std::string data_csv(const std::vector<ScalingDatum>& data) {
   return table.text();
 }
 
-}  // namespace
-
-void run_law(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_law(const Request& request) {
+  const Configuration& configuration = request.configuration;
   const std::array<int, 4> order = order_of(configuration);
   require_one_condition(configuration);
   const std::vector<double> ratios = seeings_of_law(configuration);
   require_two_pairs(configuration);
   // The one that shows what is wrong with the input, before anything is written.
   const DesignSearch first(at_seeing(configuration, order, ratios.front()));
-  RunRecord record(command_line);
+  RunRecord record(request);
 
   std::vector<ScalingDatum> data;
   Json searches = Json::array();
@@ -172,7 +176,7 @@ void run_law(const CommandLine& command_line) {
     for (const double ratio : ratios) {
       DesignSearch task(at_seeing(configuration, order, ratio));
       for (DesignTrial* trial : task.trials()) record.adopt(*trial);
-      const DesignSearchResult result = task.run(record.archive(), &progress);
+      const DesignSearchResult result = task.run(record, &progress);
       if (!result.interrupted_when.empty()) {
         ended_when = fmt::format("; at D/r0 = {:g} {}", ratio, result.interrupted_when);
         break;
@@ -206,6 +210,36 @@ void run_law(const CommandLine& command_line) {
   fmt::print("nlcwfs advise --advise.law {} follows it.\n",
              record.folder().file("law.json").string());
   record.close();
+}
+
+std::string of_law(const Json& summary) {
+  const Json& law = summary.at("law");
+  return fmt::format("Fitted to {} searches, D/r0 = {:g} to {:g}.", summary.at("designs").size(),
+                     number_from_json(law.at("least_d_over_r0")),
+                     number_from_json(law.at("greatest_d_over_r0")));
+}
+
+}  // namespace
+
+Command law_command() {
+  return {
+      .name = "law",
+      .group = "Laws and scaling",
+      .description = "fit the scaling law that advise follows to the best designs at several D/r0",
+      .about =
+          "Searches the best symmetric design at each of law.d_over_r0 and fits lines to the "
+          "planes and what they reach. Its law.json can be the advise.law of another day.",
+      .keys = keys::joined({{"telescope", "seeing.outer_scale"},
+                            keys::simulation,
+                            keys::judgement,
+                            keys::search,
+                            {"law"}}),
+      .examples = {"nlcwfs law --law.d_over_r0 3,4,6,8"},
+      .run = run_law,
+      .resumption = Resumption::by_trials,
+      .files = {{"law.json"}, {"law.csv", FileRole::table}},
+      .verdict = of_law,
+      .is_of_one_seeing = false};
 }
 
 }  // namespace nlcwfs

@@ -1,11 +1,18 @@
+// optimize: The best design of the configured search, verified on fresh screens beside the
+// baseline.
+#include "results/archive/run_files.hpp"
 #include "results/pictures/search_pictures.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/stopwatch.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 #include "studies/search/design_search.hpp"
 #include "studies/settings/setup.hpp"
@@ -134,15 +141,13 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
       captured_energy_warnings(best.design, best_performance));
 }
 
-}  // namespace
-
-void run_optimize(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_optimize(const Request& request) {
+  const Configuration& configuration = request.configuration;
   const Stopwatch stopwatch;
   DesignSearch task(configuration);
-  RunRecord record(command_line);
+  RunRecord record(request);
   for (DesignTrial* trial : task.trials()) record.adopt(*trial);
-  const DesignSearchResult result = task.run(record.archive());
+  const DesignSearchResult result = task.run(record);
   if (!result.interrupted_when.empty()) record.note_interrupted(result.interrupted_when);
 
   Configuration best_configuration = configuration;
@@ -181,6 +186,48 @@ void run_optimize(const CommandLine& command_line) {
        {"stages", stages_array(result.search)}});
   print_result(task, result, configuration.choice("search.precision"), notes);
   record.close();
+}
+
+std::string of_optimize(const Json& summary) {
+  const Json& best = summary.at("best");
+  const Json& gain = summary.at("improvement");
+  const std::size_t conditions = best.contains("conditions") ? best.at("conditions").size() : 1;
+  const std::size_t screens =
+      static_cast<std::size_t>(integer_from_json(best.at("performance").at("screens"))) /
+      std::max<std::size_t>(conditions, 1);
+  return fmt::format(
+      "Best design: {}. {}", reached_text(best, "fresh screens"),
+      baseline_verdict_text(improvement({number_from_json(gain.at("cost")),
+                                         number_from_json(gain.at("standard_error"))},
+                                        screens),
+                            mean_from_json(summary.at("baseline").at("cost")).mean));
+}
+
+}  // namespace
+
+Command optimize_command() {
+  return {.name = "optimize",
+          .group = "The best design",
+          .description = "find a telescope's best design and verify it on fresh screens",
+          .about =
+              "Searches what the section search lets vary for the lowest cost of the section "
+              "objective, verifies the best few designs on fresh screens beside the baseline, and "
+              "tells how far each variable may move. best.cfg holds the winner.",
+          .keys = keys::joined({keys::site, keys::simulation, keys::judgement, keys::search}),
+          .examples =
+              {"nlcwfs optimize --telescope.diameter 1.8 --telescope.wavelength 850nm "
+               "--seeing.fwhm 0.9",
+               "nlcwfs optimize --search.layout free --search.plane_count 3,4 --detector.photons "
+               "1e5"},
+          .run = run_optimize,
+          .resumption = Resumption::by_trials,
+          .files = joined({{{"best.cfg", FileRole::design},
+                            {"search.csv", FileRole::table},
+                            {"sensitivity.csv", FileRole::table}},
+                           closer_look_files(),
+                           picture_files({"search", "sensitivity"})}),
+          .verdict = of_optimize,
+          .is_for_a_start = true};
 }
 
 }  // namespace nlcwfs

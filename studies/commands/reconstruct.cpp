@@ -1,18 +1,25 @@
+// reconstruct: The wavefronts of measured detector frames, and how well what they predict agrees
+// with the frames.
 #include "model/frame_reconstruction.hpp"
 #include "model/input_error.hpp"
 #include "model/statistics.hpp"
 #include "model/wavefront_metrics.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/fits/fits_cube.hpp"
 #include "results/pictures/image_picture.hpp"
 #include "results/pictures/picture_set.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/interrupt.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/settings/measured_frames.hpp"
 #include "studies/settings/setup.hpp"
 
@@ -459,10 +466,8 @@ std::string sets_text(const FrameRun& run) {
   return text;
 }
 
-}  // namespace
-
-void run_reconstruct(const CommandLine& command_line) {
-  CommandLine completed = command_line;
+void run_reconstruct(const Request& request) {
+  Request completed = request;
   Configuration& configuration = completed.configuration;
   require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
@@ -496,6 +501,48 @@ void run_reconstruct(const CommandLine& command_line) {
   record.print("\n{}\n{}", planes_text(run, planes), hints(run, planes));
   record.print("\n");
   record.close();
+}
+
+std::string of_reconstruct(const Json& summary) {
+  const Json& consistency = summary.at("consistency");
+  const double misfit = number_from_json(consistency.at("misfit"));
+  return fmt::format(
+      "A wavefront of {} nm RMS after {} loops. Measured and predicted images {}: {}.",
+      figure_text(summary, "wavefront_rms_nm"), figure_text(summary, "loops"),
+      consistency.at("verdict").get<std::string>(),
+      misfit > 0.0 ? fmt::format("in plane {} they differ most, by {:.2g} % beyond what noise "
+                                 "explains",
+                                 integer_from_json(consistency.at("worst_plane")), 100.0 * misfit)
+                   : "noise explains all their differences");
+}
+
+}  // namespace
+
+Command reconstruct_command() {
+  return {.name = "reconstruct",
+          .group = "One design",
+          .description =
+              "reconstruct the wavefronts of measured detector frames, and say whether they agree",
+          .about =
+              "Calibrates the frames of the section frames, runs the loop of the section "
+              "reconstruction on them, and writes the phases as phase.fits, which can be the "
+              "screens.file of the other commands. What the phases predict for each plane is "
+              "held against what was measured there.",
+          .keys = keys::joined({keys::site, {"frames", "sensor", "detector", "reconstruction"}}),
+          .examples = {"nlcwfs reconstruct --frames frames.fits "
+                       "--sensor.planes=-120km,120km,-30km,30km --frames.background dark.fits"},
+          .run = run_reconstruct,
+          .options = {{.name = "frames",
+                       .value_name = "FILE",
+                       .description = "read the measured frames of this FITS file, as frames.file",
+                       .key = "frames.file"}},
+          .files = joined({{{"consistency.csv", FileRole::table},
+                            {"phase.fits", FileRole::image},
+                            {"frames.fits", FileRole::image},
+                            {"predicted.fits", FileRole::image}},
+                           picture_files({"phase", "frames"})}),
+          .verdict = of_reconstruct,
+          .is_of_one_seeing = false};
 }
 
 }  // namespace nlcwfs

@@ -1,15 +1,22 @@
+// response: How much of single spatial frequencies one design recovers, and pairs of planes do,
+// beside what theory expects.
 #include "model/frequency_response.hpp"
 #include "model/input_error.hpp"
 #include "objectives/design_grid.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/pictures/map_picture.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/interrupt.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/settings/setup.hpp"
 
 #include <algorithm>
@@ -368,14 +375,12 @@ std::vector<std::string> write_pictures(const Task& task, const Responses& respo
   return notes;
 }
 
-}  // namespace
-
-void run_response(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_response(const Request& request) {
+  const Configuration& configuration = request.configuration;
   Task task(configuration);
   const std::size_t asked = task.frequencies.size();
-  RunRecord record(command_line);
-  const Responses responses = measured(task, command_line.whole);
+  RunRecord record(request);
+  const Responses responses = measured(task, request.whole);
   if (task.frequencies.size() < asked || task.wavefronts < configuration.integer("screens.count")) {
     record.note_interrupted(fmt::format("{} of {} frequencies were done in {} wavefronts each",
                                         task.frequencies.size(), asked, task.wavefronts));
@@ -415,6 +420,41 @@ void run_response(const CommandLine& command_line) {
   }
   record.print("\n");
   record.close();
+}
+
+std::string of_response(const Json& summary) {
+  const Json& frequencies = summary.at("cycles_per_pupil");
+  const Json& shares = summary.at("design").at("response").at("recovered_share");
+  std::string text = "Recovered share of a sinusoid: ";
+  for (const std::size_t i : {std::size_t{0}, frequencies.size() - 1}) {
+    text +=
+        fmt::format("{}{} at {:g} {} per pupil", i == 0 ? "" : ", ",
+                    with_error(mean_from_json(shares.at(i))), number_from_json(frequencies.at(i)),
+                    number_from_json(frequencies.at(i)) == 1.0 ? "cycle" : "cycles");
+    if (frequencies.size() == 1) break;
+  }
+  return text + '.';
+}
+
+}  // namespace
+
+Command response_command() {
+  return {
+      .name = "response",
+      .group = "One design",
+      .description =
+          "measure how much of single spatial frequencies a design recovers, beside prediction",
+      .about =
+          "Puts sinusoidal wavefronts before the sensor, one frequency at a time, and "
+          "measures the recovered share; with response.distances also that of pairs of "
+          "planes at these distances, as maps. Beside it stand the contrast and the photon "
+          "noise that theory lets expect.",
+      .keys = keys::joined({keys::site, keys::simulation, {"response"}}),
+      .examples = {"nlcwfs response --response.distances 1km:200km:20:log --detector.photons 1e7"},
+      .run = run_response,
+      .files = joined(
+          {{{"response.csv", FileRole::table}}, picture_files({"response", "response-map-*"})}),
+      .verdict = of_response};
 }
 
 }  // namespace nlcwfs

@@ -1,8 +1,15 @@
+// scale: A design moved to another telescope at constant Fresnel numbers.
 #include "model/input_error.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/text/design_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "results/text/quantity_text.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/settings/setup.hpp"
 #include "studies/settings/units.hpp"
 
@@ -13,6 +20,20 @@
 
 namespace nlcwfs {
 namespace {
+
+/// Lengths of other sections that scale with a design.
+const std::vector<std::string> moved_lengths{"baseline.planes",    "objective.wfe_scale",
+                                             "response.distances", "search.tolerance",
+                                             "search.z1",          "search.z2",
+                                             "search.z3",          "search.z4",
+                                             "search.z5",          "search.z6",
+                                             "search.z_far",       "search.z_near",
+                                             "search.z_third",     "sweep.tolerance",
+                                             "sweep.z1",           "sweep.z2",
+                                             "sweep.z3",           "sweep.z4",
+                                             "sweep.z5",           "sweep.z6",
+                                             "sweep.z_far",        "sweep.z_near",
+                                             "sweep.z_third"};
 
 /// The telescope of the section scale; what is not set is as at the telescope that it comes from.
 Telescope scaled_telescope_of(const Configuration& configuration, Telescope telescope) {
@@ -36,10 +57,8 @@ bool is_varied_length(const ConfigurationKey& key) {
   return (key.kind == Kind::domain || key.kind == Kind::axis) && key.element == Kind::length;
 }
 
-}  // namespace
-
-void run_scale(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_scale(const Request& request) {
+  const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
@@ -54,7 +73,7 @@ void run_scale(const CommandLine& command_line) {
   for (double& plane : scaled.planes) plane = scaled_distance(plane, telescope, target);
   // Tolerances are optical path; equal designs are equal in waves.
   scaled.reconstruction.tolerance *= target.wavelength / telescope.wavelength;
-  RunRecord record(command_line);
+  RunRecord record(request);
 
   Configuration scaled_configuration = configuration;
   const auto set = [&](std::string_view key, const std::string& value) {
@@ -113,6 +132,32 @@ void run_scale(const CommandLine& command_line) {
       "(in nm it is multiplied by {:.4g}). scaled.cfg evaluates the new design.\n",
       target.wavelength / telescope.wavelength);
   record.close();
+}
+
+std::string of_scale(const nlohmann::ordered_json& summary) {
+  const nlohmann::ordered_json& telescope = summary.at("scaled_telescope");
+  return fmt::format("Moved to {} at {}, with the same Fresnel numbers and D/r0.",
+                     format_length(number_from_json(telescope.at("diameter_m"))),
+                     format_length(number_from_json(telescope.at("wavelength_m"))));
+}
+
+}  // namespace
+
+Command scale_command() {
+  return {.name = "scale",
+          .group = "Laws and scaling",
+          .description = "move a design to another telescope or bench at equal Fresnel numbers",
+          .about =
+              "Moves the configured planes to the telescope of the section scale, where they see "
+              "the same diffraction, and writes the moved design as scaled.cfg.",
+          .keys = keys::joined({keys::site,
+                                {"sensor", "source.bands", "detector", "reconstruction", "scale"},
+                                moved_lengths}),
+          .examples = {"nlcwfs scale --config results/optimize-1/best.cfg --scale.diameter 8.2 "
+                       "--scale.relay_beam_diameter 10mm"},
+          .run = run_scale,
+          .files = {{"scaled.cfg", FileRole::design}},
+          .verdict = of_scale};
 }
 
 }  // namespace nlcwfs

@@ -1,13 +1,19 @@
+// screens: Phase screens as a FITS cube, with their statistics.
 #include "model/pupil.hpp"
 #include "model/screen_statistics.hpp"
 #include "model/wavefront_metrics.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/fits/fits_cube.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/text/design_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/settings/setup.hpp"
 
 #include <cmath>
@@ -45,10 +51,8 @@ std::string structure_function_table(const std::vector<PhaseScreen>& screens, do
   return table.text();
 }
 
-}  // namespace
-
-void run_screens(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_screens(const Request& request) {
+  const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
@@ -63,7 +67,7 @@ void run_screens(const CommandLine& command_line) {
       return !InterruptWatch::interrupted();
     });
   }();
-  RunRecord record(command_line);
+  RunRecord record(request);
   if (configuration.text("screens.file").empty() &&
       static_cast<int>(screens.size()) < configuration.integer("screens.count")) {
     record.note_interrupted(fmt::format("{} of {} screens were drawn", screens.size(),
@@ -114,6 +118,30 @@ void run_screens(const CommandLine& command_line) {
   if (count == 1) fmt::print("note: one screen has no standard error\n");
   fmt::print("\n");
   record.close();
+}
+
+std::string of_screens(const nlohmann::ordered_json& summary) {
+  return fmt::format("{} screens: piston-removed variance {} rad^2, Kolmogorov's {:.4g} rad^2.",
+                     integer_from_json(summary.at("screens")),
+                     figure_text(summary, "piston_removed_variance_rad2"),
+                     number_from_json(summary.at("kolmogorov_piston_removed_variance_rad2")));
+}
+
+}  // namespace
+
+Command screens_command() {
+  return {.name = "screens",
+          .group = "One design",
+          .description = "make phase screens: a FITS cube and its statistics",
+          .about =
+              "Writes the wavefronts that the other commands use as screens.fits, and holds their "
+              "variances and structure function against theory.",
+          .keys = keys::joined(
+              {keys::site, {"screens", "simulation.truth", "simulation.pupil_samples"}}),
+          .examples = {"nlcwfs screens --screens.count 100 --seeing.outer_scale 25"},
+          .run = run_screens,
+          .files = {{"structure_function.csv", FileRole::table}, {"screens.fits", FileRole::image}},
+          .verdict = of_screens};
 }
 
 }  // namespace nlcwfs

@@ -1,22 +1,28 @@
+// sweep: Every design of the configured grid, the best of them verified on fresh screens.
 #include "model/input_error.hpp"
 #include "objectives/design_space.hpp"
 #include "optimizer/all_at_once.hpp"
 #include "optimizer/failure_count.hpp"
 #include "optimizer/problem.hpp"
+#include "results/archive/run_files.hpp"
 #include "results/pictures/grid_picture.hpp"
 #include "results/pictures/picture_set.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/axis_text.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/evaluation_log.hpp"
 #include "studies/run/interrupt.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/stopwatch.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 #include "studies/search/verified_ranking.hpp"
 #include "studies/settings/setup.hpp"
@@ -169,7 +175,7 @@ class Sweep {
 
   /// Tries every design; an interrupt ends it early.
   /// @throws std::runtime_error where too many in a row fail
-  void run(const CommandLine& command_line);
+  void run(const Request& request);
 
   const std::vector<GridDesign>& designs() const { return designs_; }
   /// In the order of the designs; nothing where the sweep did not get there.
@@ -188,16 +194,15 @@ class Sweep {
   double seconds_ = 0.0;
 };
 
-void Sweep::run(const CommandLine& command_line) {
+void Sweep::run(const Request& request) {
   Archive& archive = record_.archive();
   Progress progress("sweep", double(designs_.size()), "designs", "then the verification",
-                    command_line.whole);
+                    request.whole);
   const Stopwatch stopwatch;
   FailureCount failures;
   const std::size_t together =
-      command_line.runner
-          ? batch_size_of_thread * static_cast<std::size_t>(command_line.runner->threads())
-          : batch_size;
+      request.runner ? batch_size_of_thread * static_cast<std::size_t>(request.runner->threads())
+                     : batch_size;
   for (std::size_t first = 0; first < designs_.size(); first += together) {
     const std::size_t count = std::min(together, designs_.size() - first);
     std::vector<std::optional<Tried>> batch(count);
@@ -382,7 +387,7 @@ std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const
   for (std::size_t i = 0; i < best.size(); ++i) {
     const bool is_last = i + 1 == best.size();
     std::optional<TriedDesign> tried =
-        verified_candidate(sweep.designs()[best[i]].design, task.verification, record.archive(),
+        verified_candidate(sweep.designs()[best[i]].design, task.verification, record,
                            interruptible(progress), verified.empty() && is_last);
     const bool is_whole =
         !tried || static_cast<int>(tried->costs.size()) == task.verification.screen_count();
@@ -418,18 +423,16 @@ std::vector<std::string> draw_maps(const Task& task, const Json& grid, const Cos
   return draw_pictures(pictures, folder);
 }
 
-}  // namespace
-
-void run_sweep(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_sweep(const Request& request) {
+  const Configuration& configuration = request.configuration;
   const Stopwatch stopwatch;
   Task task(configuration);
-  RunRecord record(command_line);
+  RunRecord record(request);
   for (DesignTrial* trial : {&task.trial, &task.verification}) record.adopt(*trial);
   const std::size_t taken_over = record.archive().known_designs(task.trial.identity());
   const double seconds_before = record.archive().seconds_before();
   Sweep sweep(task, record);
-  sweep.run(command_line);
+  sweep.run(request);
   if (!sweep.is_complete()) {
     throw RunInterrupted(fmt::format("{} of {} designs are done; {}", sweep.done(),
                                      sweep.designs().size(), record.how_to_go_on()));
@@ -438,7 +441,7 @@ void run_sweep(const CommandLine& command_line) {
   const std::vector<const Outcome*> points = outcomes_of_points(task, sweep);
   record.folder().write("sweep.csv", points_table(task, points));
   const std::vector<RankedDesign> ranking =
-      ranking_of(best_of(sweep, task.candidates), sweep, task, record, command_line.whole);
+      ranking_of(best_of(sweep, task.candidates), sweep, task, record, request.whole);
   const TriedDesign& best = ranking.front().verified;
   const TriedDesign on_search_screens = task.trial.run(best.design);
 
@@ -470,7 +473,7 @@ void run_sweep(const CommandLine& command_line) {
            static_cast<std::int64_t>(task.trial.conditions().size())},
       {"wall_seconds", seconds_before + stopwatch.seconds()},
       {"search_seconds", sweep.seconds()}};
-  if (!command_line.silent) {
+  if (!request.silent) {
     for (const MapFigure& map : map_figures) {
       write_grid_map(grid, map.name, map.unit,
                      record.folder().file(std::string(map.file) + ".fits"));
@@ -504,6 +507,34 @@ void run_sweep(const CommandLine& command_line) {
                ranking_text(ranking, "The sweep"), limits_text(best, task.verification),
                captured_energy_warnings(best.design, performance));
   record.close();
+}
+
+std::string of_sweep(const Json& summary) {
+  return fmt::format("The best of {} designs: {}.", integer_from_json(summary.at("evaluations")),
+                     reached_text(summary.at("best"), "fresh screens"));
+}
+
+}  // namespace
+
+Command sweep_command() {
+  return {
+      .name = "sweep",
+      .group = "The best design",
+      .description = "try every design of a grid: maps of all figures, and the best, verified",
+      .about =
+          "Tries all designs of the axes of the section sweep, maps every metric over them, "
+          "and verifies the best few on fresh screens. It is what a search is checked "
+          "against.",
+      .keys = keys::joined(
+          {keys::site, keys::simulation, keys::judgement, {"sweep", "verify", "search.precision"}}),
+      .examples = {"nlcwfs sweep --sweep.z_near 5km:100km:24:log --sweep.z_far 50km:235km:24:log",
+                   "nlcwfs sweep --resume results/sweep-1"},
+      .run = run_sweep,
+      .resumption = Resumption::by_trials,
+      .files = joined({closer_look_files(),
+                       {{"best.cfg", FileRole::design}, {"sweep.csv"}, {"map-*.fits"}},
+                       picture_files({"map-*"})}),
+      .verdict = of_sweep};
 }
 
 }  // namespace nlcwfs

@@ -1,13 +1,20 @@
+// trade: The designs that no other betters in all of the configured objectives, verified on fresh
+// screens.
+#include "results/archive/run_files.hpp"
 #include "results/pictures/scatter_picture.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
+#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/axis_text.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "studies/commands/key_groups.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/stopwatch.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 #include "studies/search/trade_search.hpp"
 #include "studies/settings/setup.hpp"
@@ -323,15 +330,13 @@ void note_interruption(RunRecord& record, const TradeSearch& task, const TradeRe
   }
 }
 
-}  // namespace
-
-void run_trade(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_trade(const Request& request) {
+  const Configuration& configuration = request.configuration;
   const Stopwatch stopwatch;
   TradeSearch task(configuration);
-  RunRecord record(command_line);
+  RunRecord record(request);
   for (DesignTrial* trial : {&task.trial, &task.verification}) record.adopt(*trial);
-  const TradeResult result = task.run(record.archive());
+  const TradeResult result = task.run(record);
   note_interruption(record, task, result);
 
   record.folder().write("front.csv", front_table(task, result));
@@ -383,6 +388,48 @@ void run_trade(const CommandLine& command_line) {
   }
   fmt::print("{}\n{}", knee_text(task, result), hypervolume_text(task, result));
   record.close();
+}
+
+std::string of_trade(const Json& summary) {
+  const Json& front = summary.at("front");
+  const auto standing = std::ranges::count_if(front, [](const Json& design) {
+    return !design.at("dominated").get<bool>() && number_from_json(design.at("violation")) == 0.0;
+  });
+  std::string text = fmt::format(
+      "Of {} designs that were tried, {} are verified on fresh screens, and {} of them stay on the "
+      "front there. ",
+      integer_from_json(summary.at("evaluations")), front.size(), standing);
+  if (summary.at("knee").is_null()) return text + "None keeps objective.limits: there is no front.";
+  const auto knee = static_cast<std::size_t>(integer_from_json(summary.at("knee")));
+  return text + fmt::format("The knee of the front is design {}: {}.", knee,
+                            reached_text(front.at(knee), "fresh screens"));
+}
+
+}  // namespace
+
+Command trade_command() {
+  return {
+      .name = "trade",
+      .group = "The best design",
+      .description = "try several objectives at once: the front of the best compromises, verified",
+      .about =
+          "Searches designs that no other betters in all of trade.objectives, over numbers of "
+          "planes and pixels, and verifies the front on fresh screens. front.csv has the "
+          "front, knee.cfg its knee.",
+      .keys = keys::joined({keys::site,
+                            keys::simulation,
+                            keys::judgement,
+                            keys::space,
+                            keys::fresh_screens,
+                            {"trade"}}),
+      .examples = {"nlcwfs trade --trade.objectives total_wfe_nm,model_seconds,plane_count"},
+      .run = run_trade,
+      .resumption = Resumption::by_trials,
+      .set_defaults = set_trade_defaults,
+      .files = joined({{{"knee.cfg", FileRole::design}, {"front.csv"}, {"search.csv"}},
+                       closer_look_files(),
+                       picture_files({"front"})}),
+      .verdict = of_trade};
 }
 
 }  // namespace nlcwfs

@@ -1,19 +1,22 @@
+// reproduce: Every study of Letchev et al. 2022, and what their claims have come to.
 #include "model/input_error.hpp"
-#include "studies/command_line/commands.hpp"
-#include "studies/commands/run_functions.hpp"
+#include "results/archive/run_files.hpp"
+#include "results/tables/json_numbers.hpp"
+#include "studies/commands/commands.hpp"
 #include "studies/reproduction/paper_claims.hpp"
 #include "studies/reproduction/plan.hpp"
 #include "studies/reproduction/report.hpp"
 #include "studies/reproduction/reproduced_runs.hpp"
+#include "studies/run/command.hpp"
 #include "studies/run/interrupt.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/stopwatch.hpp"
+#include "studies/run/verdict_text.hpp"
 #include "studies/search/verified_ranking.hpp"
 #include "studies/settings/setup.hpp"
 
-#include <functional>
-#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -22,15 +25,6 @@ namespace nlcwfs {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void run_part(const CommandLine& command_line) {
-  static const std::map<std::string, std::function<void(const CommandLine&)>> commands{
-      {"convergence", run_convergence},
-      {"evaluate", run_evaluate},
-      {"response", run_response},
-      {"sweep", run_sweep}};
-  commands.at(command_line.command)(command_line);
-}
 
 /// Whether the folder of a run has the run's configuration, so that what it holds may be kept.
 bool is_of(const PlannedRun& run, const std::filesystem::path& folder) {
@@ -72,16 +66,13 @@ void run_missing(const std::vector<PlannedRun>& runs, const RunRecord& record,
     progress.describe(place);
     progress.at(done, work_of(runs[i]));
     const std::filesystem::path path = folder / runs[i].folder;
-    CommandLine part{.command = runs[i].command,
-                     .arguments = {},
-                     .configuration = runs[i].configuration,
-                     .output = path,
-                     .resume = {},
-                     .reuse = {},
-                     .runner = runner,
-                     .silent = true,
-                     .whole = &progress};
-    if (is_of(runs[i], path) && command_of(part.command).resumable && has_archive(path)) {
+    Request part{.command = &command_of(runs[i].command),
+                 .configuration = runs[i].configuration,
+                 .output = path,
+                 .runner = runner,
+                 .silent = true,
+                 .whole = &progress};
+    if (is_of(runs[i], path) && part.command->resumption != Resumption::none && has_archive(path)) {
       part.resume = path;
     } else {
       std::filesystem::remove_all(path);  // what a killed run has left, which cannot go on
@@ -89,7 +80,7 @@ void run_missing(const std::vector<PlannedRun>& runs, const RunRecord& record,
     }
     try {
       if (InterruptWatch::interrupted()) throw RunInterrupted();
-      run_part(part);
+      part.command->run(part);
     } catch (const InputError&) {
       throw;
     } catch (const RunInterrupted&) {
@@ -123,10 +114,8 @@ Json claims_array(const std::vector<Claim>& claims) {
   return array;
 }
 
-}  // namespace
-
-void run_reproduce(const CommandLine& command_line) {
-  const Configuration& configuration = command_line.configuration;
+void run_reproduce(const Request& request) {
+  const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
   if (configuration.integer("screens.count") < 2) {
     throw InputError("screens.count", configuration.value_text("screens.count"),
@@ -135,9 +124,9 @@ void run_reproduce(const CommandLine& command_line) {
   const Stopwatch stopwatch;
   const std::vector<std::string> figures = figures_of(configuration);
   const std::vector<PlannedRun> runs = planned_runs(configuration);
-  RunRecord record(command_line);
+  RunRecord record(request);
   const std::filesystem::path& folder = record.folder().path();
-  run_missing(runs, record, command_line.runner);
+  run_missing(runs, record, request.runner);
 
   const ReproducedRuns reproduced(folder);
   const std::vector<Claim> claims = checked_claims(reproduced, figures);
@@ -162,6 +151,58 @@ void run_reproduce(const CommandLine& command_line) {
       "report.md has every claim and figure.\n",
       count_text(claims, Setup::paper), count_text(claims, Setup::extended));
   record.close();
+}
+
+std::string of_reproduce(const Json& summary) {
+  const Json& claims = summary.at("claims");
+  std::string text;
+  for (const auto& [setup, title] :
+       {std::pair{"paper", "In the paper's set-up"}, {"extended", "with an extended truth"}}) {
+    std::map<std::string, int> counts;
+    for (const Json& claim : claims) ++counts[claim.at(setup).at("verdict").get<std::string>()];
+    std::vector<std::string> parts;
+    parts.reserve(counts.size());
+    for (const auto& [verdict, count] : counts) {
+      parts.push_back(fmt::format("{} {}", count, verdict));
+    }
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", title, fmt::join(parts, ", "));
+  }
+  return fmt::format("Of {} claims: {}.", claims.size(), text);
+}
+
+}  // namespace
+
+Command reproduce_command() {
+  return {
+      .name = "reproduce",
+      .group = "The paper and this machine",
+      .description =
+          "run every study of Letchev et al. 2022 and hold its claims against the results",
+      .about =
+          "Runs the paper's figures in its own set-up and with an extended truth, and judges "
+          "its claims one by one. It takes about an hour; --figure N runs a part, and an "
+          "interrupted run goes on with --resume.",
+      .keys = {"screens.count", "screens.seed", "detector", "reconstruction",
+               "simulation.pupil_samples", "simulation.precision", "objective", "search.precision",
+               "verify", "response.frequencies", "response.amplitude", "reproduce"},
+      .examples = {"nlcwfs reproduce --figure 8 --screens.count 4"},
+      .run = run_reproduce,
+      .resumption = Resumption::by_parts,
+      .options = {{.name = "figure",
+                   .value_name = "N",
+                   .description = "run only this figure of the paper, or another part that "
+                                  "reproduce.figures knows; may be given several times",
+                   .key = "reproduce.figures",
+                   .choices = figures_of(Configuration()),
+                   .repeats = true}},
+      .files = {{"report.md"},
+                {"claims.csv", FileRole::table},
+                {"figure-*.csv", FileRole::table, false},
+                {"numerics.csv", FileRole::table, false},
+                {"response*.csv", FileRole::table, false},
+                {"figure-*"},
+                {"response*"}},
+      .verdict = of_reproduce};
 }
 
 }  // namespace nlcwfs

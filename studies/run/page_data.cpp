@@ -3,6 +3,7 @@
 #include "model/input_error.hpp"
 #include "model/telescope.hpp"
 #include "objectives/design_space.hpp"
+#include "results/archive/output_folder.hpp"
 #include "results/fits/fits_cube.hpp"
 #include "results/page/page.hpp"
 #include "results/pictures/grid_picture.hpp"
@@ -12,7 +13,6 @@
 #include "results/tables/text_file.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/run/report_verdict.hpp"
 #include "studies/settings/setup.hpp"
 #include "studies/settings/text.hpp"
 #include "studies/settings/units.hpp"
@@ -40,49 +40,6 @@ constexpr int most_pixels = 128;
 /// Images of a file on the page.
 constexpr std::size_t most_slices = 8;
 
-/// The files that a command leaves for its page, apart from summary.json and config.cfg.
-struct PageFiles {
-  std::string_view command;
-  std::string_view design_file = {};  ///< configuration of the design that it ends in
-  std::vector<std::string> tables = {};
-  std::vector<std::string> images = {};
-  std::vector<std::string> pictures = {};
-  bool shows_all_tables = false;  ///< also those that it does not always leave
-};
-
-const std::vector<PageFiles>& page_files() {
-  static const std::vector<std::string> closer_look{"typical-images.fits", "worst-images.fits",
-                                                    "typical-phases.fits", "worst-phases.fits"};
-  static const std::vector<PageFiles> files{
-      {.command = "advise", .design_file = "advised.cfg"},
-      {.command = "benchmark"},
-      {.command = "compare", .pictures = {"path.svg"}},
-      {.command = "convergence", .tables = {"convergence.csv", "screens.csv"}},
-      {.command = "evaluate", .tables = {"screens.csv", "loops.csv"}, .images = closer_look},
-      {.command = "export", .shows_all_tables = true},
-      {.command = "law", .tables = {"law.csv"}},
-      {.command = "optimize",
-       .design_file = "best.cfg",
-       .tables = {"search.csv", "sensitivity.csv", "loops.csv"},
-       .images = closer_look},
-      {.command = "reconstruct",
-       .tables = {"consistency.csv"},
-       .images = {"phase.fits", "frames.fits", "predicted.fits"}},
-      {.command = "reproduce", .tables = {"claims.csv"}, .shows_all_tables = true},
-      {.command = "response", .tables = {"response.csv"}},
-      {.command = "scale", .design_file = "scaled.cfg"},
-      {.command = "screens", .tables = {"structure_function.csv"}, .images = {"screens.fits"}},
-      {.command = "sweep",
-       .design_file = "best.cfg",
-       .tables = {"loops.csv"},
-       .images = closer_look},
-      {.command = "trade",
-       .design_file = "knee.cfg",
-       .tables = {"loops.csv"},
-       .images = closer_look}};
-  return files;
-}
-
 /// Of a text file; nothing where it cannot be read.
 std::optional<std::string> text_of(const Path& path) {
   try {
@@ -94,36 +51,6 @@ std::optional<std::string> text_of(const Path& path) {
 
 [[noreturn]] void refuse(const Path& folder, const std::string& why) {
   throw InputError("DIR", one_line(folder.string()), why);
-}
-
-Json summary_of(const Path& folder) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(folder, ignored)) {
-    refuse(folder, "there is no such folder; name that of a run that is done");
-  }
-  const auto text = text_of(folder / "summary.json");
-  if (!text) {
-    refuse(folder, "has no summary.json that can be read; name the folder of a run that is done");
-  }
-  Json summary = json_of(*text);
-  if (!summary.is_object()) {
-    refuse(folder, "its summary.json is no JSON object; name the folder of a run that is done");
-  }
-  return summary;
-}
-
-const PageFiles& files_of(const Path& folder, const Json& summary) {
-  const Json& command = summary.contains("command") ? summary.at("command") : Json();
-  const auto found = std::ranges::find_if(
-      page_files(), [&](const PageFiles& files) { return command == std::string(files.command); });
-  if (found == page_files().end()) {
-    std::vector<std::string_view> commands;
-    for (const PageFiles& files : page_files()) commands.push_back(files.command);
-    refuse(folder, fmt::format("its summary.json is of the command {}, and there is a page for the "
-                               "results of {}",
-                               one_line(command.dump()), fmt::join(commands, ", ")));
-  }
-  return *found;
 }
 
 std::string version_of(const Json& summary) {
@@ -202,22 +129,19 @@ Json front_configurations(const Json& front, const Configuration& configuration)
 /// Gathers the members of the data; what cannot be had becomes a note.
 class Gathering {
  public:
-  explicit Gathering(Path folder) : folder_(std::move(folder)) {}
+  Gathering(Path folder, const Command& command) : folder_(std::move(folder)), command_(command) {}
 
   Json data();
 
  private:
   void add_configuration();
-  void add_design_file(std::string_view name);
-  void add_tables(std::vector<std::string> names, bool all);
-
-  /// Adds what is made from a file; notes where there is no such file or it cannot be read.
-  template <class Make>
-  void add(const char* member, const std::string& name, const Make& make);
+  void add_files();
+  void add_file(const std::string& name, FileRole role);
   /// Does what may fail for want of a member or by an older configuration.
   void attempt(const std::string& what, const std::function<void()>& action);
 
   Path folder_;
+  const Command& command_;
   Json data_;
   std::vector<std::string> missing_;
 };
@@ -228,17 +152,6 @@ void Gathering::attempt(const std::string& what, const std::function<void()>& ac
   } catch (const std::exception& error) {
     data_["notes"].push_back(fmt::format("{}: {}", what, error.what()));
   }
-}
-
-template <class Make>
-void Gathering::add(const char* member, const std::string& name, const Make& make) {
-  const Path path = folder_ / name;
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    missing_.push_back(name);
-    return;
-  }
-  attempt(name, [&] { data_[member][name] = make(path); });
 }
 
 /// What the page says of the telescope, and the configurations of a front.
@@ -254,15 +167,13 @@ void Gathering::add_configuration() {
     configuration.read_file(folder_ / "config.cfg");
     const Telescope telescope = telescope_of(configuration);
     const Seeing seeing = seeing_of(configuration, telescope);
-    const auto command = data_.at("command").get<std::string>();
     data_["diameter_m"] = telescope.diameter;
-    // Measured frames come with the seeing that they come with, and a law is for any.
-    if (command == "reconstruct" || command == "law") {
-      data_["telescope"] = fmt::format("{:.4g} m telescope at {}", telescope.diameter,
-                                       format_length(telescope.wavelength));
-    } else {
+    if (command_.is_of_one_seeing) {
       data_["telescope"] = telescope_line(telescope, seeing);
       data_["talbot_m"] = talbot_distance(seeing.fried_parameter, telescope.wavelength);
+    } else {
+      data_["telescope"] = fmt::format("{:.4g} m telescope at {}", telescope.diameter,
+                                       format_length(telescope.wavelength));
     }
     const Json& summary = data_.at("summary");
     if (!summary.contains("front")) return;
@@ -270,48 +181,56 @@ void Gathering::add_configuration() {
   });
 }
 
-void Gathering::add_design_file(std::string_view name) {
-  if (name.empty()) return;
-  const std::string file(name);
-  if (const auto text = text_of(folder_ / file)) {
-    data_["design_configuration"] = {{"file", file}, {"text", *text}};
-  } else {
-    missing_.push_back(file);
+void Gathering::add_file(const std::string& name, FileRole role) {
+  const Path path = folder_ / name;
+  switch (role) {
+    case FileRole::hidden:
+      break;
+    case FileRole::design:
+      data_["design_configuration"] = {{"file", name}, {"text", text_of_file(path)}};
+      break;
+    case FileRole::table:
+      data_["tables"][name] = columns_of(read_csv(path));
+      break;
+    case FileRole::image:
+      data_["images"][name] = images_of(path);
+      break;
+    case FileRole::picture:
+      data_["pictures"][name] = text_of_file(path);
   }
 }
 
-/// @param all  whether others in the folder are shown too
-void Gathering::add_tables(std::vector<std::string> names, bool all) {
-  if (all) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-      const std::string name = entry.path().filename().string();
-      if (name.ends_with(".csv") && std::ranges::count(names, name) == 0) names.push_back(name);
-    }
-    std::ranges::sort(names);
+/// Those that the page shows.
+void Gathering::add_files() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    names.push_back(entry.path().filename().string());
   }
-  for (const std::string& name : names) {
-    add("tables", name, [](const Path& path) { return columns_of(read_csv(path)); });
+  std::ranges::sort(names);
+  for (const RunFile& file : command_.files) {
+    if (file.role == FileRole::hidden) continue;
+    bool is_there = false;
+    for (const std::string& name : names) {
+      if (!is_named(name, {&file, 1})) continue;
+      is_there = true;
+      attempt(name, [&] { add_file(name, file.role); });
+    }
+    if (!is_there && file.is_certain) missing_.push_back(file.name);
   }
 }
 
 Json Gathering::data() {
-  Json summary = summary_of(folder_);
-  const PageFiles& files = files_of(folder_, summary);
+  Json summary = summary_of_run(folder_);
   summary.erase("config");
-  data_ = {{"command", summary.at("command")},
+  data_ = {{"command", command_.name},
            {"version", version_of(summary)},
            {"written", time_of(folder_ / "summary.json")},
            {"notes", Json::array()},
            {"summary", summary}};
-  attempt("the verdict cannot be told", [&] { data_["verdict"] = verdict_sentence(summary); });
+  attempt("the verdict cannot be told", [&] { data_["verdict"] = command_.verdict(summary); });
   add_configuration();
-  add_design_file(files.design_file);
-  add_tables(files.tables, files.shows_all_tables);
-  for (const std::string& name : files.images) add("images", name, images_of);
-  for (const std::string& name : files.pictures) {
-    add("pictures", name, [](const Path& path) { return Json(text_of(path).value_or("")); });
-  }
-  if (files.command == "sweep") {
+  add_files();
+  if (summary.contains("grid") && summary.contains("best")) {
     attempt("the best is not marked", [&] {
       data_["best_place"] = grid_place(summary.at("grid"), design_from_json(summary.at("best")));
     });
@@ -325,6 +244,32 @@ Json Gathering::data() {
 
 }  // namespace
 
-Json page_data(const Path& folder) { return Gathering(folder).data(); }
+Json summary_of_run(const Path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    refuse(folder, "there is no such folder; name that of a run that is done");
+  }
+  const auto text = text_of(folder / "summary.json");
+  if (!text) {
+    refuse(folder, "has no summary.json that can be read; name the folder of a run that is done");
+  }
+  Json summary = json_of(*text);
+  if (!summary.is_object()) {
+    refuse(folder, "its summary.json is no JSON object; name the folder of a run that is done");
+  }
+  return summary;
+}
+
+Json page_data(const Path& folder, const Command& command) {
+  return Gathering(folder, command).data();
+}
+
+void write_page(const Path& folder, const Command& command) {
+  const std::string title =
+      fmt::format("nlcwfs {}: {}", command.name,
+                  std::filesystem::absolute(folder).lexically_normal().filename().string());
+  OutputFolder::of_earlier_run(folder).write("report.html",
+                                             page_of(title, page_data(folder, command)));
+}
 
 }  // namespace nlcwfs

@@ -1,10 +1,16 @@
 #pragma once
 
+#include "studies/run/command.hpp"
+
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
 
 namespace nlcwfs {
+
+/// summary.json of a run.
+/// @throws InputError naming DIR where there is none, or it cannot be read
+nlohmann::ordered_json summary_of_run(const std::filesystem::path& folder);
 
 /// What the page of a run shows, from the files of its folder alone:
 ///
@@ -22,8 +28,13 @@ namespace nlcwfs {
 ///                             see page_image()
 /// - pictures                  by file: SVG
 ///
-/// @throws InputError naming DIR where there is no summary.json, it cannot be read, or it is of no
-///         command that is known
-nlohmann::ordered_json page_data(const std::filesystem::path& folder);
+/// @param command  of the run
+/// @throws InputError as above
+nlohmann::ordered_json page_data(const std::filesystem::path& folder, const Command& command);
+
+/// Makes report.html of a run's folder, from the files that are there: a page for a browser that
+/// needs nothing else. One that is there already is replaced.
+/// @throws InputError as above; std::runtime_error where the page cannot be written
+void write_page(const std::filesystem::path& folder, const Command& command);
 
 }  // namespace nlcwfs

@@ -3,8 +3,8 @@
 #include "results/archive/archive_memory.hpp"
 #include "results/tables/json_text.hpp"
 #include "results/tables/text_file.hpp"
-#include "studies/command_line/commands.hpp"
-#include "studies/commands/report.hpp"
+#include "studies/run/command.hpp"
+#include "studies/run/page_data.hpp"
 #include "studies/run/version.hpp"
 
 #include <fmt/format.h>
@@ -13,9 +13,9 @@ namespace nlcwfs {
 
 namespace {
 
-std::optional<Archive> reused(const CommandLine& command_line) {
-  if (!command_line.reuse) return std::nullopt;
-  return Archive::reopened(*command_line.reuse / "archive.sqlite");
+std::optional<Archive> reused(const Request& request) {
+  if (!request.reuse) return std::nullopt;
+  return Archive::reopened(*request.reuse / "archive.sqlite");
 }
 
 }  // namespace
@@ -30,36 +30,41 @@ bool is_complete(const std::filesystem::path& folder) {
   }
 }
 
-RunRecord::RunRecord(const CommandLine& command_line)
-    : command_line_(command_line),
-      folder_(command_line.resume ? OutputFolder::of_earlier_run(*command_line.resume)
-                                  : OutputFolder(command_line.output, command_line.command)),
-      lock_(command_line.resume ? std::make_unique<FolderLock>(folder_.path()) : nullptr),
-      archive_(command_line.resume ? Archive::reopened(folder_.file("archive.sqlite"))
-                                   : Archive(folder_.file("archive.sqlite"), command_line.command)),
-      memory_(std::make_shared<ArchiveMemory>(archive_, reused(command_line))) {
-  if (command_line.resume) {
+RunRecord::RunRecord(const Request& request)
+    : request_(request),
+      folder_(request.resume ? OutputFolder::of_earlier_run(*request.resume)
+                             : OutputFolder(request.output, request.command->name)),
+      lock_(request.resume ? std::make_unique<FolderLock>(folder_.path()) : nullptr),
+      archive_(request.resume ? Archive::reopened(folder_.file("archive.sqlite"))
+                              : Archive(folder_.file("archive.sqlite"), request.command->name)),
+      memory_(std::make_shared<ArchiveMemory>(archive_, reused(request))) {
+  if (request.resume) {
     archive_.clear_evaluations();
-    folder_.remove_results();
+    folder_.remove_results(request.command->files);
   } else {
     // Last: a folder that has it has all that it takes to go on.
-    folder_.write("config.cfg", command_line.configuration.dump());
+    folder_.write("config.cfg", request.configuration.dump());
     lock_ = std::make_unique<FolderLock>(folder_.path());
   }
-  if (!command_line.silent) print_ignored_keys(command_line);
+  if (!request.silent) print_ignored_keys(request);
 }
 
 std::string RunRecord::how_to_go_on() const {
-  return "go on with: " + resume_command(command_line_.command, folder_.path());
+  return "go on with: " + resume_command(*request_.command, folder_.path());
+}
+
+std::string RunRecord::how_to_try_again() const {
+  if (request_.command->resumption == Resumption::none) return {};
+  return "; to try it again: " + resume_command(*request_.command, folder_.path());
 }
 
 void RunRecord::adopt(DesignTrial& trial) const {
   trial.remember_in(memory_);
-  trial.run_on(command_line_.runner);
+  trial.run_on(request_.runner);
 }
 
 void RunRecord::note_interrupted(const std::string& what) {
-  if (command_line_.silent) throw RunInterrupted(fmt::format("interrupted when {}", what));
+  if (request_.silent) throw RunInterrupted(fmt::format("interrupted when {}", what));
   interruption_ = what;
 }
 
@@ -75,20 +80,20 @@ void RunRecord::write_summary(const nlohmann::ordered_json& results) {
   folder_.sync();
   nlohmann::ordered_json config;
   for (const ConfigurationKey& key : configuration_keys()) {
-    const Configuration& configuration = command_line_.configuration;
+    const Configuration& configuration = request_.configuration;
     const std::string& value = configuration.value_text(key.name);
     config[key.name] =
         value.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
   }
-  nlohmann::ordered_json summary{{"command", command_line_.command},
+  nlohmann::ordered_json summary{{"command", request_.command->name},
                                  {"version", version()},
                                  {"interrupted", !interruption_.empty()},
                                  {"config", config}};
   summary.update(results);
   folder_.write("summary.json", summary.dump(2) + "\n");
-  if (command_line_.silent) return;
+  if (request_.silent) return;
   try {
-    write_page(folder_.path());
+    write_page(folder_.path(), *request_.command);
   } catch (const std::exception& error) {
     fmt::print("note: there is no report.html: {}\n", error.what());
   }
@@ -97,8 +102,8 @@ void RunRecord::write_summary(const nlohmann::ordered_json& results) {
 void RunRecord::close() const {
   if (!interruption_.empty()) {
     print("Interrupted when {}: the results are of these.\n", interruption_);
-    if (command_of(command_line_.command).resumable) {
-      print("Go on with: {}\n", resume_command(command_line_.command, folder_.path()));
+    if (request_.command->resumption != Resumption::none) {
+      print("Go on with: {}\n", resume_command(*request_.command, folder_.path()));
     }
   }
   const std::filesystem::path page = folder_.file("report.html");

@@ -4,8 +4,8 @@
 #include "results/archive/archive.hpp"
 #include "results/archive/folder_lock.hpp"
 #include "results/archive/output_folder.hpp"
-#include "studies/command_line/command_line.hpp"
 #include "studies/run/interrupt.hpp"
+#include "studies/run/request.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -28,7 +28,7 @@ class RunRecord {
   /// the earlier run, and whatever else that has left is made anew. No other process may have its
   /// run there meanwhile. Notes keys that the command ignores. Call it when nothing in the input
   /// can be wrong any more.
-  explicit RunRecord(const CommandLine& command_line);
+  explicit RunRecord(const Request& request);
 
   /// Where the run writes to.
   const OutputFolder& folder() const { return folder_; }
@@ -36,6 +36,8 @@ class RunRecord {
   Archive& archive() { return archive_; }
   /// "go on with: nlcwfs sweep --resume results/sweep-1"
   std::string how_to_go_on() const;
+  /// "; to try it again: nlcwfs sweep --resume results/sweep-1"; empty where it is begun anew.
+  std::string how_to_try_again() const;
   /// From now on the trial remembers in the archive, and simulates on the ranks of the run.
   void adopt(DesignTrial& trial) const;
 
@@ -56,7 +58,7 @@ class RunRecord {
   /// Prints on standard output, unless the run is a silent part of another.
   template <class... Values>
   void print(fmt::format_string<Values...> format, Values&&... values) const {
-    if (!command_line_.silent) fmt::print(format, std::forward<Values>(values)...);
+    if (!request_.silent) fmt::print(format, std::forward<Values>(values)...);
   }
 
   /// Prints where the results are: "Open results/optimize-1/report.html in a browser.", where it is
@@ -65,7 +67,7 @@ class RunRecord {
   void close() const;
 
  private:
-  const CommandLine& command_line_;
+  const Request& request_;
   InterruptWatch watch_;
   std::string interruption_;  // empty without one
   OutputFolder folder_;

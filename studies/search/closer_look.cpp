@@ -216,6 +216,16 @@ CurvePicture loops_picture(const ShownScreen& typical, const ShownScreen& worst,
 
 }  // namespace
 
+std::vector<RunFile> closer_look_files(bool is_certain) {
+  return joined({{{"loops.csv", FileRole::table, is_certain},
+                  {"typical-images.fits", FileRole::image, is_certain},
+                  {"worst-images.fits", FileRole::image, is_certain},
+                  {"typical-phases.fits", FileRole::image, is_certain},
+                  {"worst-phases.fits", FileRole::image, is_certain}},
+                 picture_files({"design", "loops", "typical-images", "typical-phases",
+                                "worst-images", "worst-phases"})});
+}
+
 CloserLook look_closer(const DesignTrial& trial, const TriedDesign& tried,
                        const OutputFolder& folder) {
   const ChosenScreens chosen = chosen_screens(pooled(tried.performances));

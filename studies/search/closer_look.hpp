@@ -2,6 +2,7 @@
 
 #include "objectives/design_trial.hpp"
 #include "results/archive/output_folder.hpp"
+#include "results/archive/run_files.hpp"
 
 #include <string>
 #include <vector>
@@ -15,6 +16,10 @@ struct CloserLook {
   nlohmann::ordered_json summary;  ///< the object `closer_look` of a run's summary
   std::vector<std::string> notes;  ///< where there are no pictures
 };
+
+/// The files of a closer look.
+/// @param is_certain  whether every run has one
+std::vector<RunFile> closer_look_files(bool is_certain = true);
 
 /// Shows a design on its typical screen (of the median residual WFE, the lower of the two middle
 /// ones) and on its worst: what the detectors saw, what was made of it and how the loops got there.

@@ -147,14 +147,14 @@ std::vector<DesignTrial*> DesignSearch::trials() {
   return all;
 }
 
-DesignSearchResult DesignSearch::run(Archive& archive, const Progress* whole) const {
+DesignSearchResult DesignSearch::run(RunRecord& record, const Progress* whole) const {
   DesignSearchResult result;
   const InterruptWatch watch;
   std::vector<SearchPoint> starts = options.starts;
   const Stopwatch stopwatch;
   if (cheap_) {
     const SearchResult cheap =
-        search_stage("cheap search", cheap_->space, cheap_->trial, cheap_->options, archive,
+        search_stage("cheap search", cheap_->space, cheap_->trial, cheap_->options, record,
                      "then the search and the verification", whole, result);
     result.cheap_evaluations = cheap.evaluations;
     // Not the costs: they are of another simulation. First, as an interrupted search tries one.
@@ -167,20 +167,20 @@ DesignSearchResult DesignSearch::run(Archive& archive, const Progress* whole) co
   if (std::optional<double>& limit = from_starts.evaluation.time_limit) {
     limit = std::max(0.0, *limit - stopwatch.seconds());
   }
-  result.search = search_stage("search", space, trial, from_starts, archive,
-                               "then the verification", whole, result);
+  result.search = search_stage("search", space, trial, from_starts, record, "then the verification",
+                               whole, result);
   result.search_seconds = stopwatch.seconds();
   result.reconstructions = result.search_reconstructions;
   if (result.search.termination == Termination::stop_requested) {
     result.interrupted_when = fmt::format("{} of {} designs were tried", result.search.evaluations,
                                           from_starts.evaluation.budget);
   }
-  verify(archive, whole, result);
+  verify(record, whole, result);
   if (result.interrupted_when.empty()) scan_ranges(whole, result);
   return result;
 }
 
-void DesignSearch::verify(Archive& archive, const Progress* whole,
+void DesignSearch::verify(RunRecord& record, const Progress* whole,
                           DesignSearchResult& result) const {
   // An interrupt that ended the search does not end this too.
   const bool may_end = result.interrupted_when.empty();
@@ -197,13 +197,13 @@ void DesignSearch::verify(Archive& archive, const Progress* whole,
     return static_cast<int>(tried.costs.size()) == verification.screen_count();
   };
   // The baseline first: whatever is done later can then be held against it.
-  result.baseline = verified_design(baseline, verification, archive, watch());
+  result.baseline = verified_design(baseline, verification, record, watch());
   count_screens(result.baseline);
   std::vector<RankedDesign> candidates;
   std::size_t failures = 0;
   for (std::size_t i = 0; i < count; ++i) {
     std::optional<TriedDesign> tried =
-        verified_candidate(space.design(leaders[i].point), verification, archive, watch(),
+        verified_candidate(space.design(leaders[i].point), verification, record, watch(),
                            candidates.empty() && i + 1 == count);
     if (!tried) {
       ++failures;
@@ -264,10 +264,10 @@ void DesignSearch::scan_ranges(const Progress* whole, DesignSearchResult& result
 
 SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpace& stage_space,
                                         const DesignTrial& stage_trial, SearchOptions stage_options,
-                                        Archive& archive, std::string then, const Progress* whole,
+                                        RunRecord& record, std::string then, const Progress* whole,
                                         DesignSearchResult& result) const {
   SearchLog log(name, stage_space, telescope, seeing.fried_parameter, stage_options.evaluation,
-                archive, std::move(then), whole);
+                record.archive(), std::move(then), whole);
   DesignProblem problem(stage_space, stage_trial, {}, log.interruptible());
   std::stop_source stop;
   if (InterruptWatch::interrupted()) stop.request_stop();

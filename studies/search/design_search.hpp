@@ -7,8 +7,8 @@
 #include "objectives/design_trial.hpp"
 #include "objectives/optimum_range.hpp"
 #include "optimizer/chained_search.hpp"
-#include "results/archive/archive.hpp"
 #include "results/pictures/search_pictures.hpp"
+#include "studies/run/run_record.hpp"
 #include "studies/search/verified_ranking.hpp"
 #include "studies/settings/configuration.hpp"
 
@@ -71,7 +71,7 @@ class DesignSearch {
   /// the designs that are done and their baseline, or the best alone on as many screens as are done
   /// of both.
   /// @param whole  see Progress
-  DesignSearchResult run(Archive& archive, const Progress* whole = nullptr) const;
+  DesignSearchResult run(RunRecord& record, const Progress* whole = nullptr) const;
 
   const Telescope telescope;       ///< that designs are for
   const Seeing seeing;             ///< the first, where there are several
@@ -92,9 +92,9 @@ class DesignSearch {
 
   SearchResult search_stage(const std::string& name, const DesignSpace& stage_space,
                             const DesignTrial& stage_trial, SearchOptions stage_options,
-                            Archive& archive, std::string then, const Progress* whole,
+                            RunRecord& record, std::string then, const Progress* whole,
                             DesignSearchResult& result) const;
-  void verify(Archive& archive, const Progress* whole, DesignSearchResult& result) const;
+  void verify(RunRecord& record, const Progress* whole, DesignSearchResult& result) const;
   void scan_ranges(const Progress* whole, DesignSearchResult& result) const;
 
   std::optional<CheapStage> cheap_;

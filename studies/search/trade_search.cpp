@@ -198,13 +198,13 @@ TradeSearch::TradeSearch(const Configuration& configuration)
   if (const auto point = space.point_of(configured)) options.starts.push_back(*point);
 }
 
-TradeResult TradeSearch::run(Archive& archive) const {
+TradeResult TradeSearch::run(RunRecord& record) const {
   TradeResult result;
   const InterruptWatch watch;
   const Stopwatch stopwatch;
   ParetoOptions watched = options;
-  SearchLog log("search", space, telescope, seeing.fried_parameter, watched.evaluation, archive,
-                "then the verification", nullptr, objectives);
+  SearchLog log("search", space, telescope, seeing.fried_parameter, watched.evaluation,
+                record.archive(), "then the verification", nullptr, objectives);
   std::stop_source stop;
   watched.evaluation.stop = stop.get_token();
 
@@ -229,12 +229,12 @@ TradeResult TradeSearch::run(Archive& archive) const {
     result.reference_is_of_the_run = result.reference_is_of_the_run || !reference_[i];
     result.reference_point.push_back(objectives[i].minimised(reference_[i].value_or(worst[i])));
   }
-  verify_front(result, archive);
+  verify_front(result, record);
   judge_front(result);
   return result;
 }
 
-void TradeSearch::verify_front(TradeResult& result, Archive& archive) const {
+void TradeSearch::verify_front(TradeResult& result, RunRecord& record) const {
   const std::vector<EvaluatedDesign>& front = result.search.front;
   std::vector<std::string> groups;
   for (const EvaluatedDesign& found : front) {
@@ -250,7 +250,7 @@ void TradeSearch::verify_front(TradeResult& result, Archive& archive) const {
   for (const std::size_t i : chosen) {
     const EvaluatedDesign& found = front[i];
     std::optional<TriedDesign> tried =
-        verified_candidate(space.design(found.point), verification, archive,
+        verified_candidate(space.design(found.point), verification, record,
                            was_interrupted ? counted(progress) : interruptible(progress),
                            result.front.empty() && i == chosen.back());
     if (!tried) {

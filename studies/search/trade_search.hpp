@@ -7,7 +7,7 @@
 #include "objectives/design_space.hpp"
 #include "objectives/design_trial.hpp"
 #include "optimizer/pareto_search.hpp"
-#include "results/archive/archive.hpp"
+#include "studies/run/run_record.hpp"
 #include "studies/settings/configuration.hpp"
 
 #include <cstddef>
@@ -75,7 +75,7 @@ class TradeSearch {
   /// The search, and the verification of its front on fresh screens. An interrupt of the search
   /// ends it with the front so far, which is verified all the same; one of the verification ends it
   /// with the designs so far, or the first alone on the screens that are done.
-  TradeResult run(Archive& archive) const;
+  TradeResult run(RunRecord& record) const;
 
   const Telescope telescope;                   ///< that designs are for
   const Seeing seeing;                         ///< the first, where there are several
@@ -87,7 +87,7 @@ class TradeSearch {
   DesignTrial verification;                    ///< on fresh screens
 
  private:
-  void verify_front(TradeResult& result, Archive& archive) const;
+  void verify_front(TradeResult& result, RunRecord& record) const;
   void judge_front(TradeResult& result) const;
 
   /// As figures to be minimised; nothing for what the first populations say.

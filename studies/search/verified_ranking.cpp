@@ -5,7 +5,6 @@
 #include "results/tables/trial_summary.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/command_line/commands.hpp"
 #include "studies/run/evaluation_log.hpp"
 #include "studies/run/stopwatch.hpp"
 #include "studies/settings/text.hpp"
@@ -57,7 +56,7 @@ Progress verification_progress(const DesignTrial& verification, std::size_t desi
 }
 
 TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verification,
-                            Archive& archive, const ScreenWatch& watch) {
+                            RunRecord& record, const ScreenWatch& watch) {
   const Stopwatch stopwatch;
   const Condition& first = verification.conditions().front();
   ArchivedEvaluation evaluation{
@@ -82,24 +81,19 @@ TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verif
     evaluation.cost = mean_and_standard_error(tried->costs).mean;
     evaluation.performance = to_json(pooled(tried->performances)).dump();
   }
-  archive_and_log(archive, evaluation);
+  archive_and_log(record.archive(), evaluation);
   if (tried) return *tried;
-  const std::string command = archive.command();
-  const std::string how_to_go_on =
-      command_of(command).resumable
-          ? "; to try it again: " + resume_command(command, archive.path().parent_path())
-          : "";
   throw VerificationFailed(
       fmt::format("the design of the planes {} failed on the fresh screens: {}",
                   planes_text(design), evaluation.failure),
-      how_to_go_on);
+      record.how_to_try_again());
 }
 
 std::optional<TriedDesign> verified_candidate(const SensorDesign& design,
-                                              const DesignTrial& verification, Archive& archive,
+                                              const DesignTrial& verification, RunRecord& record,
                                               const ScreenWatch& watch, bool is_last_hope) {
   try {
-    return verified_design(design, verification, archive, watch);
+    return verified_design(design, verification, record, watch);
   } catch (const VerificationFailed& failure) {
     if (is_last_hope) throw;
     spdlog::warn("{}; it is left out", without_controls(failure.what_failed()));

@@ -2,8 +2,8 @@
 
 #include "objectives/design_comparison.hpp"
 #include "objectives/design_trial.hpp"
-#include "results/archive/archive.hpp"
 #include "studies/run/progress.hpp"
+#include "studies/run/run_record.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -40,13 +40,13 @@ class VerificationFailed : public std::runtime_error {
 /// A design on fresh screens, archived where the watch did not end it early.
 /// @throws VerificationFailed, once that is archived and logged
 TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verification,
-                            Archive& archive, const ScreenWatch& watch);
+                            RunRecord& record, const ScreenWatch& watch);
 
 /// The same of one of several designs: nothing where it fails, of which it warns.
 /// @param is_last_hope  none before has survived, and none follows
 /// @throws VerificationFailed where it is
 std::optional<TriedDesign> verified_candidate(const SensorDesign& design,
-                                              const DesignTrial& verification, Archive& archive,
+                                              const DesignTrial& verification, RunRecord& record,
                                               const ScreenWatch& watch, bool is_last_hope);
 
 /// One of the best designs of a search or a sweep, held against the best of them on fresh screens.

@@ -1,3 +1,4 @@
+#include "studies/commands/report.hpp"
 #include "studies/run/page_data.hpp"
 #include "studies/settings/law_file.hpp"
 #include "tests/fuzz/fuzzer.hpp"
@@ -55,7 +56,8 @@ void read_summary(std::string_view text) {
   static const RunFolder folder;
   is_accepted([&] {
     // As a page has it.
-    page_data(folder.with_summary(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
+    page_data(folder.with_summary(text), command_of_run(folder.with_summary(text)))
+        .dump(-1, ' ', false, Json::error_handler_t::replace);
   });
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/archive/output_folder.hpp"
-#include "studies/command_line/commands.hpp"
+#include "studies/commands/commands.hpp"
 #include "tests/paths.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -64,7 +64,7 @@ class Program : public ScratchFolder {
       const bool is_text = character == '\n' || (character >= ' ' && character <= '~');
       EXPECT_TRUE(is_text) << "control character " << int(character);
     }
-    if (command_of(command).resumable) expect_results_alone(folder);
+    expect_known_files(command, folder);
     return finished;
   }
 
@@ -92,12 +92,13 @@ class Program : public ScratchFolder {
     return json;
   }
 
-  /// What a run that goes on in the folder would make again.
-  static void expect_results_alone(const std::string& folder) {
+  /// What a run of the command may leave.
+  static void expect_known_files(const std::string& command, const std::string& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      const std::filesystem::path name = entry.path().filename();
-      if (entry.is_directory() || name == "config.cfg" || name == "archive.sqlite") continue;
-      EXPECT_TRUE(is_result(name)) << name << " is not known as a result";
+      const std::string name = entry.path().filename().string();
+      if (entry.is_directory()) continue;
+      EXPECT_TRUE(is_named(name, common_files()) || is_named(name, command_of(command).files))
+          << name << " is not known as a file of " << command;
     }
   }
 

@@ -148,15 +148,18 @@ TEST_F(OutputFolderTest, RemovesResultsAndLinksOfTheirNamesAlone) {
   fs::create_symlink(fs::absolute("target"), "mine/worst-images.fits");
   fs::create_symlink("nowhere", "mine/map-cost.png");
   fs::create_directory("mine/search.csv");
-  for (const char* name :
-       {"config.cfg", "archive.sqlite", "best.cfg", "search.csv.part", "design.gnuplot.part",
-        "design.svg", "figure-3-map.png", "response-map-wfe.svg"}) {
+  for (const char* name : {"config.cfg", "archive.sqlite", "best.cfg", "search.csv.part",
+                           "design.gnuplot.part", "design.svg", "figure-3-map.png",
+                           "map-cost.data.part", "report.html", "response-map-wfe.svg"}) {
     std::ofstream(std::string("mine/") + name) << "";
   }
   const std::vector<std::string> users{"mask.fits",    "my.cfg",       "notes.txt",  "search.txt",
                                        "search-2.csv", "screens.fits", "design.cfg", "my.part"};
   for (const std::string& name : users) std::ofstream("mine/" + name) << "";
-  folder.remove_results();
+  const std::vector<RunFile> files =
+      joined({{{"best.cfg"}, {"search.csv"}, {"worst-images.fits"}},
+              picture_files({"design", "figure-*", "map-*", "response-map-*"})});
+  folder.remove_results(files);
   EXPECT_THAT(
       names_in("mine"),
       ElementsAre("archive.sqlite", "config.cfg", "design.cfg", "mask.fits", "my.cfg", "my.part",

@@ -1,7 +1,7 @@
 #include "studies/command_line/command_line.hpp"
 
 #include "results/archive/archive.hpp"
-#include "studies/command_line/commands.hpp"
+#include "studies/commands/commands.hpp"
 #include "tests/message_of.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -24,7 +24,7 @@ using testing::Not;
 using testing::Optional;
 using testing::StartsWith;
 
-CommandLine parse(std::vector<const char*> arguments) {
+Request parse(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "nlcwfs");
   return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
 }
@@ -36,17 +36,17 @@ std::string parse_message(const std::vector<const char*>& arguments) {
 using CommandLineTest = ScratchFolder;
 
 TEST_F(CommandLineTest, ReadsTheCommandAndItsOptions) {
-  const CommandLine plain = parse({"evaluate"});
-  EXPECT_EQ(plain.command, "evaluate");
+  const Request plain = parse({"evaluate"});
+  EXPECT_EQ(plain.command->name, "evaluate");
   EXPECT_EQ(plain.output, std::nullopt);
   EXPECT_EQ(plain.threads, 0);
   EXPECT_EQ(plain.log_level, LogLevel::info);
   EXPECT_FALSE(plain.help || plain.version || plain.dump_config);
   EXPECT_EQ(plain.configuration, Configuration());
 
-  const CommandLine full = parse({"--quiet", "optimize", "--output", "my results", "--threads=3",
-                                  "--dump-config", "--screens.count", "8"});
-  EXPECT_EQ(full.command, "optimize");
+  const Request full = parse({"--quiet", "optimize", "--output", "my results", "--threads=3",
+                              "--dump-config", "--screens.count", "8"});
+  EXPECT_EQ(full.command->name, "optimize");
   EXPECT_THAT(full.output, Optional(std::filesystem::path("my results")));
   EXPECT_EQ(full.threads, 3);
   EXPECT_EQ(full.log_level, LogLevel::warning);
@@ -158,9 +158,9 @@ TEST_F(CommandLineTest, TakesAWordOfHelp) {
   EXPECT_TRUE(parse({"-h"}).help);
   for (const std::vector<const char*>& words :
        {std::vector{"help", "sweep"}, std::vector{"sweep", "-h"}}) {
-    const CommandLine help = parse(words);
+    const Request help = parse(words);
     EXPECT_TRUE(help.help);
-    EXPECT_EQ(help.command, "sweep");
+    EXPECT_EQ(help.command->name, "sweep");
   }
   EXPECT_THAT(parse_message({"help", "bogus"}), StartsWith("command line = bogus: no command"));
 }
@@ -207,8 +207,8 @@ TEST_F(CommandLineTest, RefusesWhatIsGivenTwice) {
 }
 
 TEST_F(CommandLineTest, OnlyAdviseVerifiesOnDemand) {
-  EXPECT_TRUE(parse({"advise", "--verify"}).verify);
-  EXPECT_FALSE(parse({"advise"}).verify);
+  EXPECT_THAT(parse({"advise", "--verify"}).flags, ElementsAre("verify"));
+  EXPECT_TRUE(parse({"advise"}).flags.empty());
   for (const Command& command : commands()) {
     if (command.name == "advise") continue;
     std::vector<const char*> arguments{"--verify", command.name.c_str()};
@@ -246,8 +246,7 @@ TEST_F(CommandLineTest, ResumesWithTheConfigurationOfTheFolder) {
               StartsWith("--reuse = no/such/folder: has no archive.sqlite; "));
   EXPECT_THAT(parse_message({"screens", "--reuse", name.c_str()}),
               HasSubstr(": screens keeps no trials; leave it away"));
-  const CommandLine resumed =
-      parse({"sweep", "--resume", name.c_str(), "--threads", "2", "--quiet"});
+  const Request resumed = parse({"sweep", "--resume", name.c_str(), "--threads", "2", "--quiet"});
   EXPECT_THAT(resumed.resume, Optional(folder));
   EXPECT_EQ(resumed.configuration, earlier);
   EXPECT_EQ(resumed.threads, 2);
@@ -270,7 +269,7 @@ TEST_F(CommandLineTest, ResumesWithTheConfigurationOfTheFolder) {
 
 TEST_F(CommandLineTest, OnlySomeCommandsResume) {
   for (const Command& command : commands()) {
-    if (command.resumable) continue;
+    if (command.resumption != Resumption::none) continue;
     std::vector<const char*> arguments{"--resume", "run", command.name.c_str()};
     arguments.resize(3 + command.arguments.size(), "folder");
     EXPECT_EQ(parse_message(arguments),

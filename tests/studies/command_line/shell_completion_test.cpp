@@ -1,7 +1,7 @@
 #include "studies/command_line/shell_completion.hpp"
 
-#include "studies/command_line/commands.hpp"
 #include "studies/command_line/program_options.hpp"
+#include "studies/commands/commands.hpp"
 #include "studies/settings/configuration.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,4 +1,6 @@
-#include "studies/command_line/commands.hpp"
+#include "studies/commands/report.hpp"
+
+#include "studies/commands/commands.hpp"
 #include "studies/run/page_data.hpp"
 #include "tests/studies/program.hpp"
 
@@ -58,7 +60,7 @@ TEST_F(Report, IsMadeByTheRunAndTheSameAgain) {
 
 TEST_F(Report, HasTheNumbersOfTheFolder) {
   done("optimize", "run");
-  const Json data = page_data("run");
+  const Json data = page_data("run", command_of_run("run"));
   const Json written = Json::parse(contents("run/summary.json"));
   EXPECT_EQ(data.at("command"), "optimize");
   EXPECT_EQ(data.at("version"), written.at("version"));
@@ -83,7 +85,7 @@ TEST_F(Report, SaysWhatIsMissing) {
     std::filesystem::remove(std::filesystem::path("run") / file);
   }
   EXPECT_EQ(run({"report", "run"}).exit_code, 0);
-  const Json data = page_data("run");
+  const Json data = page_data("run", command_of_run("run"));
   EXPECT_THAT(data.at("notes").dump(),
               AllOf(HasSubstr("Not in the folder"), HasSubstr("search.csv"), HasSubstr("best.cfg"),
                     HasSubstr("config.cfg")));
@@ -96,7 +98,7 @@ TEST_F(Report, SaysWhatItCannotRead) {
   replace_in("run/config.cfg", "[telescope]\n", "[telescope]\nwing_span = 3\n");
   replace_in("run/summary.json", "\"improvement\"", "\"improvements\"");
   EXPECT_EQ(run({"report", "run"}).exit_code, 0);
-  const Json data = page_data("run");
+  const Json data = page_data("run", command_of_run("run"));
   EXPECT_THAT(data.at("notes").dump(),
               AllOf(HasSubstr("search.csv"), HasSubstr("wing_span"), HasSubstr("verdict")));
   EXPECT_FALSE(data.contains("verdict"));
@@ -134,13 +136,13 @@ TEST_F(Report, AnEmptySummaryIsStillAPage) {
     std::ofstream("run/summary.json") << Json{{"command", command.name}};
     const ProgramRun finished = run({"report", "run"});
     EXPECT_EQ(finished.exit_code, 0) << command.name << finished.errors;
-    EXPECT_THAT(page_data("run").at("notes"), Not(IsEmpty()));
+    EXPECT_THAT(page_data("run", command_of_run("run")).at("notes"), Not(IsEmpty()));
   }
 }
 
 TEST_F(Report, AFrontsConfigurationsAreItsDesigns) {
   done("trade", "run", {"--trade.budget", "16", "--trade.population", "8"});
-  const Json data = page_data("run");
+  const Json data = page_data("run", command_of_run("run"));
   const Json& front = data.at("summary").at("front");
   const Json& texts = data.at("front_configurations");
   ASSERT_EQ(texts.size(), front.size());
@@ -160,7 +162,7 @@ TEST_F(Report, AFrontsConfigurationsAreItsDesigns) {
 
 TEST_F(Report, MarksTheBestOfASweep) {
   done("sweep", "run", {"--sweep.z_far", "100km,150km", "--sweep.relaxation", "0,0.3"});
-  const Json data = page_data("run");
+  const Json data = page_data("run", command_of_run("run"));
   const Json& axes = data.at("summary").at("grid").at("axes");
   const Json& place = data.at("best_place");
   ASSERT_EQ(place.size(), axes.size());
@@ -172,7 +174,7 @@ TEST_F(Report, MarksTheBestOfASweep) {
 
 TEST_F(Report, OfAnotherCommandNeedsNoConfiguration) {
   done("screens", "run", {"--screens.count", "3"});
-  const Json images = page_data("run").at("images").at("screens.fits");
+  const Json images = page_data("run", command_of_run("run")).at("images").at("screens.fits");
   EXPECT_EQ(images.at("unit"), "rad");
   EXPECT_EQ(images.at("count"), 3);
   EXPECT_EQ(images.at("slices").size(), 3u);

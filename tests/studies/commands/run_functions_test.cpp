@@ -1,5 +1,5 @@
 #include "results/fits/fits_cube.hpp"
-#include "studies/command_line/commands.hpp"
+#include "studies/commands/commands.hpp"
 #include "studies/run/version.hpp"
 #include "studies/settings/setup.hpp"
 #include "tests/studies/program.hpp"

@@ -1,4 +1,4 @@
-#include "studies/command_line/commands.hpp"
+#include "studies/commands/commands.hpp"
 
 #include "results/archive/archive.hpp"
 #include "studies/command_line/command_line.hpp"
@@ -21,7 +21,7 @@ using Names = std::set<std::string, std::less<>>;
 
 class CommandTable : public Program {
  protected:
-  static CommandLine parsed(const std::vector<std::string>& words) {
+  static Request parsed(const std::vector<std::string>& words) {
     std::vector<const char*> arguments{"nlcwfs"};
     for (const std::string& word : words) arguments.push_back(word.c_str());
     return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
@@ -32,7 +32,7 @@ class CommandTable : public Program {
     static int runs = 0;
     Arguments words{name, "--config", "base.cfg", "--output", fmt::format("run-{}", ++runs)};
     words.insert(words.end(), more.begin(), more.end());
-    CommandLine command_line = parsed(words);
+    Request command_line = parsed(words);
     command_line.silent = true;
     command_line.log_level = LogLevel::error;
     command_line.configuration.note_reads_in(reads);
@@ -133,8 +133,8 @@ TEST_F(CommandTable, HaveExamplesThatTheCommandLineTakes) {
       std::vector<std::string> words;
       for (std::string word; text >> word;) words.push_back(word);
       words.erase(words.begin());
-      const CommandLine command_line = parsed(words);
-      EXPECT_EQ(command_line.command, command.name);
+      const Request command_line = parsed(words);
+      EXPECT_EQ(command_line.command->name, command.name);
       for (const ConfigurationKey& key : configuration_keys()) {
         if (command_line.configuration.source(key.name) == "on the command line") {
           EXPECT_TRUE(command.reads(key.name)) << example;

@@ -1,0 +1,24 @@
+#include "studies/run/verdict_text.hpp"
+
+#include "results/tables/json_numbers.hpp"
+#include "results/text/design_text.hpp"
+
+#include <fmt/format.h>
+
+namespace nlcwfs {
+
+using Json = nlohmann::ordered_json;
+
+std::string figure_text(const Json& object, const char* name) {
+  const MeanAndError value = mean_from_json(object.at(name));
+  return value.standard_error == 0.0 ? fmt::format("{:.4g}", value.mean) : with_error(value);
+}
+
+std::string reached_text(const Json& design, std::string_view screens) {
+  const Json& performance = design.at("performance");
+  return fmt::format("residual WFE {} nm after {} loops on {} {}",
+                     figure_text(performance, "residual_wfe_nm"), figure_text(performance, "loops"),
+                     integer_from_json(performance.at("screens")), screens);
+}
+
+}  // namespace nlcwfs

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace nlcwfs {
+
+// What the verdicts of several commands say of a run's summary. All throw nlohmann::json::exception
+// where a member is missing or of another type.
+
+/// A figure with its standard error, where it has one: one screen alone has none.
+std::string figure_text(const nlohmann::ordered_json& object, const char* name);
+
+/// "residual WFE 2.64 +- 0.01 nm after 8.1 +- 0.2 loops on 64 fresh screens"
+/// @param design   as a summary has it
+/// @param screens  what they are: "fresh screens"
+std::string reached_text(const nlohmann::ordered_json& design, std::string_view screens);
+
+}  // namespace nlcwfs
