@@ -128,3 +128,42 @@ function showDesign(section, design, caption = "") {
   designDrawing(section, design, caption);
   section.append(planesTable(design), folded("Detector and reconstruction", settingsTable(design)));
 }
+
+/** The metrics of every screen. */
+function showScreenMetrics(part) {
+  const screens = data.tables?.["screens.csv"];
+  if (!screens?.screen || screens.screen.length < 2) return;
+  const chosen = {metric: "residual_wfe_nm"};
+  const metrics = shownMetrics.filter((metric) => metric in screens);
+  const place = element("div");
+  part.append(element("div", {className: "controls"},
+    menu("Every screen's", metrics.map((metric) => [metric, label(metric)]), chosen.metric,
+      (metric) => {
+        chosen.metric = metric;
+        made.redraw();
+      })), place);
+  const made = chart(place, "", (theme) => ({
+    data: [{type: "bar", x: screens.screen, y: screens[chosen.metric],
+      marker: {color: screens.converged.map((converged) => theme.lines[converged ? 0 : 1])},
+      hovertemplate: "screen %{x}: %{y:.5~g}<extra></extra>"}],
+    layout: {xaxis: {title: {text: "screen"}}, yaxis: {title: {text: plain(label(chosen.metric))}}},
+  }), 280);
+  if (screens.converged.some((converged) => !converged)) {
+    part.append(element("p", {className: "faint"}, `Orange or red: the loop had not converged when it
+      reached the most loops that it may take.`));
+  }
+}
+
+/** The best few designs, on fresh screens. */
+function showRanking(part, ranking, of) {
+  if (!ranking || ranking.length < 2) return;
+  part.append(table(["cost", "planes", "against the best"], ranking.map((design, i) => [
+    withError(design.cost), design.planes_m.map(length).join(", "),
+    i === 0 ? "the best" : verdictOf(design)]),
+  `The best ${ranking.length} designs of the ${of}, on the fresh screens`));
+}
+
+function verdictOf(design) {
+  const more = design.cost_above_best ? ` ${withError(design.cost_above_best)} more` : "";
+  return `${design.verdict === "tied" ? "a tie" : design.verdict ?? ""}${more && ":"}${more}`;
+}

@@ -21,27 +21,11 @@ function section(title, fill) {
   attempt(part, () => fill(part));
 }
 
-const titles = {
-  advise: "Advised design",
-  benchmark: "Speed of this machine",
-  compare: "Sweep against search",
-  convergence: "From loop to loop",
-  evaluate: "Performance of a design",
-  export: "Evaluations of a run",
-  law: "Scaling law",
-  optimize: "Best design",
-  reconstruct: "Reconstructed wavefront",
-  reproduce: "Letchev, Crass, Crepp & Potier 2022, claim by claim",
-  response: "Response to single spatial frequencies",
-  scale: "Moved design",
-  screens: "Phase screens",
-  sweep: "Sweep of a grid",
-  trade: "Front of the best compromises",
-};
+const page = pages[data.command];
 
 function showHead() {
   const head = document.getElementById("head");
-  head.append(themeSwitch(), element("h1", {}, titles[data.command] ?? data.command));
+  head.append(themeSwitch(), element("h1", {}, page.title));
   if (data.telescope) head.append(element("p", {}, data.telescope));
   if (data.verdict) head.append(element("p", {className: "verdict"}, typeset(data.verdict)));
   head.append(element("p", {className: "faint"},
@@ -53,14 +37,10 @@ function showHead() {
   for (const note of data.notes) head.append(element("p", {className: "note"}, note));
 }
 
-/** The design that a command's configuration file holds. */
-const ends = {advise: "the advised design", optimize: "the best design", scale: "the moved design",
-  sweep: "the best design", trade: "the knee"};
-
 function showConfigurations() {
   const design = data.design_configuration;
   if (design) {
-    section(`Configuration of ${ends[data.command] ?? "this design"}`, (part) => part.append(
+    section(`Configuration of ${page.end}`, (part) => part.append(
       element("p", {}, `As it is in ${design.file}: `,
         element("code", {}, `nlcwfs evaluate --config ${design.file}`), " tries it."),
       copyable(withoutComments(design.text))));
@@ -81,14 +61,7 @@ function withoutComments(text) {
     .map((line, i) => (isHead(line) && i > 0 ? `\n${line}` : line)).join("\n") + "\n";
 }
 
-const pages = {
-  advise: showAdvice, benchmark: showBenchmark, compare: showComparison,
-  convergence: showConvergence, evaluate: showEvaluation, export: showExport, law: showLaw, optimize: showOptimization,
-  reconstruct: showReconstruction, reproduce: showReproduction, response: showResponse,
-  scale: showScaling, screens: showScreens, sweep: showSweep, trade: showTrade,
-};
-
 document.documentElement.dataset.theme = themeName();
 showHead();
-attempt(sections, () => pages[data.command](data.summary));
+attempt(sections, () => page.show(data.summary));
 showConfigurations();

@@ -174,3 +174,5 @@ function showNumerics(part, numerics) {
         numerics.converged_fraction[i] === null ? "–"
           : `${digits(100 * numerics.converged_fraction[i])} %`])));
 }
+
+pages.reproduce = {title: "Letchev, Crass, Crepp & Potier 2022, claim by claim", show: showReproduction};

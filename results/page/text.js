@@ -1,5 +1,8 @@
 "use strict";
 
+/** What each command's script says of its page: {title, end (the design that its configuration file holds), show(summary)}. */
+const pages = {};
+
 // Elements, numbers and tables. A text of the data is only ever set as text, never read as HTML.
 
 /** A new element with properties or attributes and children; those that are null are left out. */

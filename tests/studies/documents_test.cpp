@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -131,6 +132,43 @@ TEST_F(Documents, EveryLinkLeadsToAFile) {
     }
   }
   EXPECT_GT(tried, 5U);
+}
+
+/// What a table of docs/files.md says of the files of a run: by the name of a file, the commands
+/// that leave it; those that all leave are of no command.
+std::map<std::string, std::set<std::string>> documented_files() {
+  std::map<std::string, std::set<std::string>> files;
+  std::istringstream lines(document(source_folder() / "docs/files.md").text);
+  const std::regex row(R"(\| (`[^|]*`) \| ([^|]*)\|.*)");
+  const std::regex word("`([^`]+)`");
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row)) continue;
+    std::set<std::string> takers;
+    const std::string before_colon = cells[2].str().substr(0, cells[2].str().find(':'));
+    for (std::sregex_iterator match(before_colon.begin(), before_colon.end(), word), end;
+         match != end; ++match) {
+      const std::string name = (*match)[1].str().substr(0, (*match)[1].str().find(' '));
+      if (find_command(name) != nullptr) takers.insert(name);
+    }
+    const std::string names = cells[1];
+    for (std::sregex_iterator match(names.begin(), names.end(), word), end; match != end; ++match) {
+      files[(*match)[1]].insert(takers.begin(), takers.end());
+    }
+  }
+  return files;
+}
+
+TEST_F(Documents, EveryFileOfARunIsInTheListOfFiles) {
+  std::map<std::string, std::set<std::string>> known;
+  for (const RunFile& file : common_files()) known[file.name];
+  for (const Command& command : commands()) {
+    // Pictures are told of by their SVG.
+    for (const RunFile& file : command.files) {
+      if (!file.name.ends_with(".png")) known[file.name].insert(command.name);
+    }
+  }
+  EXPECT_EQ(documented_files(), known);
 }
 
 /// The tutorial from its first command to its last, on fewer and coarser screens: ./nlcwfs is a

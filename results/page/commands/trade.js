@@ -167,3 +167,5 @@ function showBests(part, summary) {
       }), `Best ${shortLabel(first)} within a limit on ${shortLabel(name)}`));
   }
 }
+
+pages.trade = {title: "Front of the best compromises", end: "the knee", show: showTrade};
