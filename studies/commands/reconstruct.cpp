@@ -1,22 +1,14 @@
 // reconstruct: The wavefronts of measured detector frames, and how well what they predict agrees
 // with the frames.
-#include "model/frame_reconstruction.hpp"
-#include "model/input_error.hpp"
 #include "model/statistics.hpp"
-#include "model/wavefront_metrics.hpp"
-#include "results/archive/run_files.hpp"
-#include "results/fits/fits_cube.hpp"
-#include "results/pictures/image_picture.hpp"
-#include "results/pictures/picture_set.hpp"
-#include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
 #include "results/tables/json_numbers.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
+#include "studies/commands/frame_sets.hpp"
 #include "studies/commands/key_groups.hpp"
+#include "studies/commands/reconstruct_files.hpp"
 #include "studies/run/command.hpp"
-#include "studies/run/interrupt.hpp"
-#include "studies/run/progress.hpp"
 #include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
@@ -24,302 +16,13 @@
 #include "studies/settings/setup.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <utility>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 
 namespace nlcwfs {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double nm = 1e-9;
-constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();
-
-/// What became of one set of frames.
-struct SetResult {
-  FrameReconstruction frames;
-  Image<double> phase;         ///< rad, piston removed, NaN outside the pupil
-  double wavefront_rms = 0.0;  ///< m of path over the pupil, piston removed
-  std::vector<double>
-      noise;  ///< relative RMS that noise alone leaves, per plane; none if not known
-  std::vector<double> misfit;  ///< relative RMS beyond what noise explains, per plane
-};
-
-/// The planes' shares of the light that reached the detectors.
-double light_share(const FrameReconstruction& frames, std::size_t plane) {
-  double sum = 0.0;
-  for (const PlaneConsistency& other : frames.planes) sum += other.light;
-  return frames.planes[plane].light / sum;
-}
-
-/// How much of a disagreement noise cannot explain. The reconstructed field has followed the noise
-/// of its images too, so that they differ from their prediction by up to 1.4 times their noise
-/// (measured on one frame of the default design with 1e5 to 1e7 photons); half as much again is
-/// left to it.
-double misfit_beyond(double relative_rms, double noise) {
-  constexpr double allowance = 1.5;
-  return std::sqrt(
-      std::max(0.0, relative_rms * relative_rms - allowance * allowance * noise * noise));
-}
-
-SetResult reconstruct_set(const GerchbergSaxton<double>& reconstructor, const SensorDesign& design,
-                          const Telescope& telescope, const MeasuredFrames& measured,
-                          std::size_t set) {
-  SetResult result;
-  result.frames = reconstruct_frames(reconstructor, measured.sets[set], measured.throughputs);
-  const Field<double>& pupil = result.frames.reconstruction.pupil_field;
-  const PupilMask& mask = reconstructor.mask();
-  const Image<double> phase = reconstructor.unwrapper().unwrap(pupil);
-  const double piston = mask.select(phase, 0.0).sum() / double(mask.count());
-  result.phase = mask.select(phase - piston, unmeasured);
-  result.wavefront_rms =
-      piston_free_rms(phase, mask) * telescope.wavelength / (2.0 * std::numbers::pi);
-  const double photons = design.detector.photons_per_frame();
-  for (std::size_t plane = 0; plane < design.planes.size(); ++plane) {
-    const PlaneConsistency& consistency = result.frames.planes[plane];
-    double noise = 0.0;
-    if (photons > 0.0) {
-      const Image<double> predicted =
-          result.frames.measured[plane].isNaN().select(unmeasured, result.frames.predicted[plane]);
-      noise = relative_noise(
-          predicted, photons * light_share(result.frames, plane) / reconstructor.pupil_energy(),
-          design.detector.read_noise);
-      result.noise.push_back(noise);
-    }
-    result.misfit.push_back(misfit_beyond(consistency.relative_rms, noise));
-  }
-  return result;
-}
-
-/// All sets; after an interrupt those before the first that is not done, one at least.
-std::vector<SetResult> reconstruct_sets(const GerchbergSaxton<double>& reconstructor,
-                                        const SensorDesign& design, const Telescope& telescope,
-                                        const MeasuredFrames& measured) {
-  std::vector<std::optional<SetResult>> sets(measured.sets.size());
-  Progress progress("reconstruct", double(sets.size()), "sets");
-  // One set at a time: they take different numbers of loops.
-  tbb::parallel_for(
-      std::size_t{0}, sets.size(),
-      [&](std::size_t set) {
-        if (set > 0 && InterruptWatch::interrupted()) return;
-        sets[set] = reconstruct_set(reconstructor, design, telescope, measured, set);
-        progress.advance();
-      },
-      tbb::simple_partitioner());
-  std::vector<SetResult> done;
-  for (std::optional<SetResult>& set : sets) {
-    if (!set) break;
-    done.push_back(std::move(*set));
-  }
-  return done;
-}
-
-// Files -------------------------------------------------------------------------------------------
-
-/// Everything that the files and texts are made of.
-struct FrameRun {
-  const Telescope& telescope;
-  const SensorDesign& design;
-  const MeasuredFrames& measured;
-  const std::vector<SetResult>& sets;
-};
-
-std::vector<FitsKeyword> keywords_of(const FrameRun& run, const std::vector<FitsAxis>& axes) {
-  std::vector<FitsKeyword> keywords = axis_keywords(axes);
-  keywords.push_back({"DIAMETER", run.telescope.diameter, "[m] pupil diameter"});
-  keywords.push_back({"WAVELEN", run.telescope.wavelength, "[m] wavelength of the light"});
-  return keywords;
-}
-
-void write_phases(const FrameRun& run, const OutputFolder& folder) {
-  FitsCube cube{.unit = "rad", .slices = {}};
-  for (const SetResult& set : run.sets) cube.slices.push_back(set.phase);
-  const Eigen::Index samples = cube.slices.front().rows();
-  const double pitch = run.telescope.diameter / double(samples);
-  write_fits_cube(
-      folder.file("phase.fits"), cube,
-      keywords_of(run, {centred_axis("X", samples, pitch),
-                        centred_axis("Y", samples, pitch),
-                        {.name = "SET", .reference_value = 1.0, .description = "of frames"}}));
-}
-
-/// @param images  of a set: one per plane
-void write_images(const std::string& name, const FrameRun& run, const OutputFolder& folder,
-                  std::vector<Image<double>> FrameReconstruction::*images) {
-  FitsCube cube{.unit = "1", .slices = {}, .sets = run.sets.size()};
-  for (const SetResult& set : run.sets) {
-    const std::vector<Image<double>>& planes = set.frames.*images;
-    cube.slices.insert(cube.slices.end(), planes.begin(), planes.end());
-  }
-  const double pitch = run.telescope.diameter / run.design.detector.pupil_pixels;
-  std::vector<FitsAxis> axes{
-      centred_axis("X", run.measured.width(), pitch),
-      centred_axis("Y", run.measured.width(), pitch),
-      {.name = "PLANE", .reference_value = 1.0, .description = "in visiting order"}};
-  if (cube.sets > 1) {
-    axes.push_back({.name = "SET", .reference_value = 1.0, .description = "of frames"});
-  }
-  std::vector<FitsKeyword> keywords = keywords_of(run, axes);
-  for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
-    keywords.push_back({fmt::format("PLANE{}", plane + 1), run.design.planes[plane],
-                        "[m] distance from the pupil"});
-    keywords.push_back({fmt::format("AXISX{}", plane + 1), run.measured.axes[plane].x() * pitch,
-                        "[m] the optical axis in this plane's frame"});
-    keywords.push_back({fmt::format("AXISY{}", plane + 1), run.measured.axes[plane].y() * pitch,
-                        "[m] the optical axis in this plane's frame"});
-  }
-  keywords.push_back({"INTUNIT", std::string("unaberrated pupil"), "what has the intensity 1"});
-  write_fits_cube(folder.file(name), cube, keywords);
-}
-
-std::string consistency_table(const FrameRun& run) {
-  CsvTable table({"set", "plane", "distance_m", "relative_rms", "noise_relative_rms", "misfit",
-                  "correlation", "flux", "captured_energy", "displacement_x_pixels",
-                  "displacement_y_pixels", "centre_x_pixels", "centre_y_pixels", "bad_pixels"});
-  for (std::size_t set = 0; set < run.sets.size(); ++set) {
-    const SetResult& result = run.sets[set];
-    for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
-      const PlaneConsistency& consistency = result.frames.planes[plane];
-      table.row()
-          .add(double(set + 1))
-          .add(double(plane + 1))
-          .add(run.design.planes[plane])
-          .add(consistency.relative_rms);
-      if (result.noise.empty()) {
-        table.add("");
-      } else {
-        table.add(result.noise[plane]);
-      }
-      const double middle = 0.5 * double(run.measured.width() + 1);
-      table.add(result.misfit[plane])
-          .add(consistency.correlation)
-          .add(consistency.light)
-          .add(consistency.captured_energy)
-          .add(consistency.displacement.x())
-          .add(consistency.displacement.y())
-          .add(run.measured.axes[plane].x() + middle)
-          .add(run.measured.axes[plane].y() + middle)
-          .add(double(run.measured.width() * run.measured.width() - consistency.measured_pixels));
-    }
-  }
-  return table.text();
-}
-
-// Pictures ----------------------------------------------------------------------------------------
-
-/// "Set 1 of 3: 0.5 m telescope at 532 nm"; the first set stands for all.
-std::string title_of(const FrameRun& run) {
-  const std::string telescope = fmt::format("{:g} m telescope at {}", run.telescope.diameter,
-                                            format_length(run.telescope.wavelength));
-  return run.sets.size() == 1 ? telescope
-                              : fmt::format("Set 1 of {}: {}", run.sets.size(), telescope);
-}
-
-ImagePicture phase_picture(const FrameRun& run) {
-  const SetResult& set = run.sets.front();
-  return {.title = title_of(run),
-          .axis_unit = "m",
-          .panels = {
-              {.title = fmt::format("reconstructed phase, RMS {:.4g} nm", set.wavefront_rms / nm),
-               .value_label = "phase, rad",
-               .values = set.phase,
-               .pitch = run.telescope.diameter / double(set.phase.rows()),
-               .is_signed = true}}};
-}
-
-/// Measured, predicted and their difference, a row for each plane.
-ImagePicture images_picture(const FrameRun& run) {
-  const FrameReconstruction& frames = run.sets.front().frames;
-  ImagePicture picture{.title = title_of(run), .axis_unit = "m", .panels = {}};
-  const double pitch = run.telescope.diameter / run.design.detector.pupil_pixels;
-  for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
-    const std::string name =
-        fmt::format("plane {}, {}", plane + 1, format_length(run.design.planes[plane]));
-    const Image<double>& measured = frames.measured[plane];
-    const Image<double>& predicted = frames.predicted[plane];
-    const double brightest =
-        std::max(measured.maxCoeff<Eigen::PropagateNumbers>(), predicted.maxCoeff());
-    const std::string unit = "over the pupil's";
-    picture.panels.push_back({.title = name + ": measured",
-                              .value_label = unit,
-                              .values = measured,
-                              .pitch = pitch,
-                              .range = std::pair{0.0, brightest}});
-    picture.panels.push_back({.title = "predicted",
-                              .value_label = unit,
-                              .values = predicted,
-                              .pitch = pitch,
-                              .range = std::pair{0.0, brightest}});
-    picture.panels.push_back({.title = fmt::format("difference, {:.1f} % RMS",
-                                                   100.0 * frames.planes[plane].relative_rms),
-                              .value_label = unit,
-                              .values = measured - predicted,
-                              .pitch = pitch,
-                              .is_signed = true});
-  }
-  return picture;
-}
-
-/// @return a line for each reason why there are no pictures
-std::vector<std::string> write_pictures(const FrameRun& run, const OutputFolder& folder) {
-  return draw_pictures(
-      {{"phase", [&](const auto& stem) { return write_picture(phase_picture(run), stem); }},
-       {"frames", [&](const auto& stem) { return write_picture(images_picture(run), stem); }}},
-      folder);
-}
-
-// What it comes to --------------------------------------------------------------------------------
-
-template <class Metric>
-MeanAndError mean_over_sets(const FrameRun& run, const Metric& metric) {
-  std::vector<double> values;
-  for (const SetResult& set : run.sets) values.push_back(metric(set));
-  return mean_and_standard_error(values);
-}
-
-/// A plane's figures, means over the sets.
-struct PlaneMeans {
-  MeanAndError relative_rms;
-  std::optional<MeanAndError> noise;
-  MeanAndError misfit;
-  MeanAndError correlation;
-  MeanAndError light_share;
-  MeanAndError captured_energy;
-  MeanAndError x;
-  MeanAndError y;
-};
-
-std::vector<PlaneMeans> plane_means(const FrameRun& run) {
-  std::vector<PlaneMeans> planes;
-  for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
-    const auto mean_of = [&](const auto& metric) {
-      return mean_over_sets(run,
-                            [&](const SetResult& set) { return metric(set.frames.planes[plane]); });
-    };
-    PlaneMeans means{
-        .relative_rms = mean_of([](const PlaneConsistency& of) { return of.relative_rms; }),
-        .noise = {},
-        .misfit = mean_over_sets(run, [&](const SetResult& set) { return set.misfit[plane]; }),
-        .correlation = mean_of([](const PlaneConsistency& of) { return of.correlation; }),
-        .light_share = mean_over_sets(
-            run, [&](const SetResult& set) { return light_share(set.frames, plane); }),
-        .captured_energy = mean_of([](const PlaneConsistency& of) { return of.captured_energy; }),
-        .x = mean_of([](const PlaneConsistency& of) { return of.displacement.x(); }),
-        .y = mean_of([](const PlaneConsistency& of) { return of.displacement.y(); })};
-    if (!run.sets.front().noise.empty()) {
-      means.noise = mean_over_sets(run, [&](const SetResult& set) { return set.noise[plane]; });
-    }
-    planes.push_back(means);
-  }
-  return planes;
-}
 
 /// Bounds of the misfit. Frames of the program's own simulation leave 0.01 to 0.06 where all is
 /// right (the reconstruction's own grid and pixels), 0.1 to 0.2 with all distances 5 % off, one of
@@ -348,7 +51,7 @@ Json summary_of(const FrameRun& run, double fried_parameter,
                     {"loops", reconstruction.loops},
                     {"fractional_loops", reconstruction.fractional_loops},
                     {"passes", set.frames.passes},
-                    {"wavefront_rms_nm", set.wavefront_rms / nm}});
+                    {"wavefront_rms_nm", 1e9 * set.wavefront_rms}});
   }
   Json plane_objects = Json::array();
   for (const PlaneMeans& plane : planes) {
@@ -367,7 +70,7 @@ Json summary_of(const FrameRun& run, double fried_parameter,
   const auto converged = [](const SetResult& set) {
     return set.frames.reconstruction.converged ? 1.0 : 0.0;
   };
-  const auto rms = [](const SetResult& set) { return set.wavefront_rms / nm; };
+  const auto rms = [](const SetResult& set) { return 1e9 * set.wavefront_rms; };
   return {{"design", to_json(run.design, run.telescope, fried_parameter)},
           {"frames",
            {{"sets", run.sets.size()},
@@ -449,12 +152,12 @@ std::string sets_text(const FrameRun& run) {
   for (const SetResult& set : run.sets) unconverged += set.frames.reconstruction.converged ? 0 : 1;
   if (run.sets.size() == 1) {
     const SetResult& set = run.sets.front();
-    text = fmt::format("wavefront RMS {:.4g} nm after {} loops\n", set.wavefront_rms / nm,
+    text = fmt::format("wavefront RMS {:.4g} nm after {} loops\n", 1e9 * set.wavefront_rms,
                        set.frames.reconstruction.loops);
   } else {
     text = fmt::format("{} sets: wavefront RMS {} nm after {} loops\n", run.sets.size(),
                        with_error(mean_over_sets(
-                           run, [](const SetResult& set) { return set.wavefront_rms / nm; })),
+                           run, [](const SetResult& set) { return 1e9 * set.wavefront_rms; })),
                        with_error(mean_over_sets(run, [](const SetResult& set) {
                          return double(set.frames.reconstruction.loops);
                        })));
@@ -487,11 +190,7 @@ void run_reconstruct(const Request& request) {
 
   const FrameRun run{telescope, design, measured, sets};
   const std::vector<PlaneMeans> planes = plane_means(run);
-  write_phases(run, record.folder());
-  write_images("frames.fits", run, record.folder(), &FrameReconstruction::measured);
-  write_images("predicted.fits", run, record.folder(), &FrameReconstruction::predicted);
-  record.folder().write("consistency.csv", consistency_table(run));
-  const std::vector<std::string> notes = write_pictures(run, record.folder());
+  const std::vector<std::string> notes = write_frame_files(run, record.folder());
   record.write_summary(summary_of(run, seeing.fried_parameter, planes));
 
   for (const std::string& note : notes) record.print("note: {}\n", note);
@@ -536,11 +235,7 @@ Command reconstruct_command() {
                        .value_name = "FILE",
                        .description = "read the measured frames of this FITS file, as frames.file",
                        .key = "frames.file"}},
-          .files = joined({{{"consistency.csv", FileRole::table},
-                            {"phase.fits", FileRole::image},
-                            {"frames.fits", FileRole::image},
-                            {"predicted.fits", FileRole::image}},
-                           picture_files({"phase", "frames"})}),
+          .files = frame_files(),
           .verdict = of_reconstruct,
           .is_of_one_seeing = false};
 }

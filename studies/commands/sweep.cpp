@@ -1,9 +1,7 @@
 // sweep: Every design of the configured grid, the best of them verified on fresh screens.
-#include "model/input_error.hpp"
+#include "studies/search/sweep.hpp"
+
 #include "objectives/design_space.hpp"
-#include "optimizer/all_at_once.hpp"
-#include "optimizer/failure_count.hpp"
-#include "optimizer/problem.hpp"
 #include "results/archive/run_files.hpp"
 #include "results/pictures/grid_picture.hpp"
 #include "results/pictures/picture_set.hpp"
@@ -16,27 +14,16 @@
 #include "results/text/quantity_text.hpp"
 #include "studies/commands/key_groups.hpp"
 #include "studies/run/command.hpp"
-#include "studies/run/evaluation_log.hpp"
-#include "studies/run/interrupt.hpp"
-#include "studies/run/progress.hpp"
 #include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
-#include "studies/search/verified_ranking.hpp"
 #include "studies/settings/setup.hpp"
-#include "studies/settings/sweep_grid.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <map>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,222 +32,6 @@ namespace nlcwfs {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Designs that are tried together: enough for many cores, as each is parallel in itself, and few
-/// enough that neighbours on the grid, which share planes, find each other's images.
-constexpr std::size_t batch_size = 16;
-/// The same for each thread of a runner: more, as all wait for the last of them.
-constexpr std::size_t batch_size_of_thread = 64;
-
-/// What the configuration asks for, checked as a whole before anything is written.
-struct Task {
-  explicit Task(const Configuration& configuration);
-
-  Telescope telescope;
-  Seeing seeing;
-  DesignGrid grid;
-  std::vector<std::string> notes;
-  DesignTrial trial;
-  DesignTrial verification;
-  std::vector<DesignMetric> metrics;  ///< every one that the configuration says enough for
-  std::size_t candidates;             ///< that are verified
-};
-
-std::vector<DesignMetric> metrics_of(const Operation& operation) {
-  std::vector<DesignMetric> metrics;
-  for (const DesignMetric& metric : design_metrics()) {
-    try {
-      metric.validate(operation);
-      metrics.push_back(metric);
-    } catch (const InputError&) {
-      // It needs what is not set.
-    }
-  }
-  return metrics;
-}
-
-/// Whether the grid's designs differ in their pixels across the pupil.
-bool pixels_vary(const Configuration& configuration) {
-  const auto pixels = configuration.axis("sweep.pupil_pixels");
-  return pixels && pixels->size() > 1;
-}
-
-Task::Task(const Configuration& configuration)
-    : telescope(telescope_of(configuration)),
-      seeing(seeing_of(configuration, telescope)),
-      grid(sweep_grid_of(configuration, telescope,
-                         simulated_design(design_of(configuration), telescope,
-                                          simulation_options_of(configuration, "search.precision"),
-                                          truth_samples(configuration)))),
-      trial(trial_of(configuration, "search.precision", notes, pixels_vary(configuration))),
-      verification(verification_trial_of(configuration, pixels_vary(configuration))),
-      metrics(metrics_of(trial.cost().operation)),
-      candidates(static_cast<std::size_t>(configuration.integer("verify.candidates"))) {
-  try {
-    verification.checked(design_of(configuration));
-  } catch (const InputError& error) {
-    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
-                     fmt::format("the finer truth does not suit the design: {}", error.what()));
-  }
-  if (!configuration.text("screens.file").empty()) {
-    notes.emplace_back("the verification is on simulated screens of the configured seeing");
-  }
-}
-
-/// How a design of the grid did, as the archive has it too.
-struct Outcome {
-  MeanAndError cost{};
-  double violation = 0.0;
-  std::vector<MeanAndError> metrics = {};  ///< in the order of Task::metrics
-  std::string failure = {};                ///< why there is none of these
-};
-
-/// A design that was tried: how it did, and the archive's row.
-struct Tried {
-  Outcome outcome;
-  ArchivedEvaluation evaluation;
-  bool is_refused = false;  ///< it is none that can be simulated
-};
-
-/// Tries a design; one that cannot be tried has a failure. Nothing where an interrupt ended it.
-std::optional<Tried> tried_design(const GridDesign& design, const Task& task) {
-  const Stopwatch stopwatch;
-  Tried result;
-  ArchivedEvaluation& evaluation = result.evaluation;
-  evaluation = {
-      .stage = "sweep",
-      .design = to_json(design.design, task.telescope, task.seeing.fried_parameter).dump(),
-      .cost = std::numeric_limits<double>::quiet_NaN(),
-      .failure = {},
-      .seconds = 0.0,
-      .performance = {},
-      .key = design.key};
-  try {
-    const TriedDesign tried =
-        task.trial.run(design.design, {}, [] { return !InterruptWatch::interrupted(); });
-    if (static_cast<int>(tried.costs.size()) < task.trial.screen_count()) return std::nullopt;
-    result.outcome.cost = mean_and_standard_error(tried.costs);
-    if (!std::isfinite(result.outcome.cost.mean)) {
-      throw std::runtime_error(fmt::format("the cost is {}", result.outcome.cost.mean));
-    }
-    result.outcome.violation = tried.violation;
-    evaluation.cost = result.outcome.cost.mean;
-    Json performance = to_json(pooled(tried.performances));
-    performance["cost"] = to_json(result.outcome.cost);
-    performance["violation"] = tried.violation;
-    for (const DesignMetric& metric : task.metrics) {
-      result.outcome.metrics.push_back(task.trial.mean_of(tried, metric));
-      performance["metrics"][std::string(metric.name)] = to_json(result.outcome.metrics.back());
-    }
-    evaluation.performance = performance.dump();
-  } catch (const TrialMemoryFailed&) {
-    throw;  // no design is to blame
-  } catch (const std::exception& error) {
-    result.is_refused = dynamic_cast<const InputError*>(&error) != nullptr;
-    result.outcome = {.failure = error.what()};
-    evaluation.failure = error.what();
-  }
-  evaluation.seconds = stopwatch.seconds();
-  return result;
-}
-
-/// A sweep under way: what is known of its designs.
-class Sweep {
- public:
-  Sweep(const Task& task, RunRecord& record)
-      : task_(task),
-        record_(record),
-        designs_(task.grid.distinct_designs()),
-        outcomes_(designs_.size()) {}
-
-  /// Tries every design; an interrupt ends it early.
-  /// @throws std::runtime_error where too many in a row fail
-  void run(const Request& request);
-
-  const std::vector<GridDesign>& designs() const { return designs_; }
-  /// In the order of the designs; nothing where the sweep did not get there.
-  const std::vector<std::optional<Outcome>>& outcomes() const { return outcomes_; }
-  std::size_t done() const { return done_; }
-  /// What the designs took, in earlier runs too, s.
-  double seconds() const { return seconds_; }
-  bool is_complete() const { return done_ == designs_.size(); }
-
- private:
-  const Task& task_;
-  RunRecord& record_;
-  std::vector<GridDesign> designs_;
-  std::vector<std::optional<Outcome>> outcomes_;
-  std::size_t done_ = 0;
-  double seconds_ = 0.0;
-};
-
-void Sweep::run(const Request& request) {
-  Archive& archive = record_.archive();
-  Progress progress("sweep", double(designs_.size()), "designs", "then the verification",
-                    request.whole);
-  const Stopwatch stopwatch;
-  FailureCount failures;
-  const std::size_t together =
-      request.runner ? batch_size_of_thread * static_cast<std::size_t>(request.runner->threads())
-                     : batch_size;
-  for (std::size_t first = 0; first < designs_.size(); first += together) {
-    const std::size_t count = std::min(together, designs_.size() - first);
-    std::vector<std::optional<Tried>> batch(count);
-    std::size_t next = 0;
-    std::mutex lock;
-    // In the order of the designs, so that equal sweeps have equal archives.
-    const auto take_next = [&] {
-      const std::size_t i = next++;
-      if (!batch[i]) return;
-      archive_and_log(archive, batch[i]->evaluation);
-      outcomes_[first + i] = std::move(batch[i]->outcome);
-      ++done_;
-      if (batch[i]->is_refused) return;
-      failures.add(!outcomes_[first + i]->failure.empty());
-      if (failures.is_too_high()) {
-        throw std::runtime_error(fmt::format(
-            "{} of {} designs failed one after the other, the last with: {}; the archive has all "
-            "of them: nlcwfs export {}",
-            failures.in_a_row(), designs_.size(), outcomes_[first + i]->failure,
-            record_.folder().path().string()));
-      }
-    };
-    all_at_once(count, [&](std::size_t i) {
-      if (InterruptWatch::interrupted()) return;
-      std::optional<Tried> tried = tried_design(designs_[first + i], task_);
-      progress.advance();
-      const std::scoped_lock guard(lock);
-      batch[i] = std::move(tried);
-      // Not only after the batch: where all fail, this begins no more of them.
-      while (!failures.is_too_high() && next < count && batch[next]) take_next();
-    });
-    // Those behind one that an interrupt ended.
-    while (next < count) take_next();
-  }
-  seconds_ = archive.seconds_before() + stopwatch.seconds();
-}
-
-/// The cheapest designs that keep the limits, or come closest, best first; `most` at most.
-/// @throws std::runtime_error where all failed
-std::vector<std::size_t> best_of(const Sweep& sweep, std::size_t most) {
-  std::vector<std::size_t> designs;
-  for (std::size_t i = 0; i < sweep.designs().size(); ++i) {
-    if (sweep.outcomes()[i]->failure.empty()) designs.push_back(i);
-  }
-  if (designs.empty()) {
-    throw std::runtime_error(
-        fmt::format("every design of the grid failed; the first: {}",
-                    sweep.outcomes().empty() ? "" : sweep.outcomes().front()->failure));
-  }
-  const auto rank = [&](std::size_t design) {
-    const Outcome& outcome = *sweep.outcomes()[design];
-    return EvaluatedDesign{
-        .point = {}, .key = {}, .cost = outcome.cost.mean, .violation = outcome.violation};
-  };
-  std::ranges::stable_sort(designs, is_better, rank);
-  designs.resize(std::min(designs.size(), most));
-  return designs;
-}
 
 /// A value of an axis as people write it; lengths and times in SI.
 Json axis_value(const DesignGrid& grid, const GridAxis& axis, std::size_t place) {
@@ -275,17 +46,8 @@ Json axis_value(const DesignGrid& grid, const GridAxis& axis, std::size_t place)
   return value;
 }
 
-/// The outcome of each point; null where the grid has no design.
-std::vector<const Outcome*> outcomes_of_points(const Task& task, const Sweep& sweep) {
-  std::vector<const Outcome*> points(task.grid.size(), nullptr);
-  for (std::size_t i = 0; i < sweep.designs().size(); ++i) {
-    for (const std::size_t point : sweep.designs()[i].points) points[point] = &*sweep.outcomes()[i];
-  }
-  return points;
-}
-
 /// One row per point of the grid.
-std::string points_table(const Task& task, const std::vector<const Outcome*>& points) {
+std::string points_table(const SweepTask& task, const std::vector<const SweepOutcome*>& points) {
   const DesignGrid& grid = task.grid;
   std::vector<std::string> columns;
   for (const GridAxis& axis : grid.axes()) {
@@ -309,7 +71,7 @@ std::string points_table(const Task& task, const std::vector<const Outcome*>& po
         table.add(value.get<double>());
       }
     }
-    const Outcome* outcome = points[point];
+    const SweepOutcome* outcome = points[point];
     if (outcome == nullptr || !outcome->failure.empty()) {
       for (std::size_t i = 0; i < 3 + 2 * task.metrics.size(); ++i) table.add("");
       table.add(outcome == nullptr ? "left out, or the order is one of another number of planes"
@@ -327,10 +89,10 @@ std::string points_table(const Task& task, const std::vector<const Outcome*>& po
 
 /// Nested arrays, the first axis outermost, of a value of each point; null where there is none.
 template <class Value>
-Json matrix_of(const DesignGrid& grid, const std::vector<const Outcome*>& points,
+Json matrix_of(const DesignGrid& grid, const std::vector<const SweepOutcome*>& points,
                const Value& value) {
   std::vector<Json> rows;
-  for (const Outcome* point : points) {
+  for (const SweepOutcome* point : points) {
     const bool has_value = point != nullptr && point->failure.empty();
     rows.push_back(has_value ? Json(value(*point)) : Json(nullptr));
   }
@@ -346,7 +108,7 @@ Json matrix_of(const DesignGrid& grid, const std::vector<const Outcome*>& points
   return rows.front();
 }
 
-Json grid_object(const Task& task, const std::vector<const Outcome*>& points) {
+Json grid_object(const SweepTask& task, const std::vector<const SweepOutcome*>& points) {
   const DesignGrid& grid = task.grid;
   Json object;
   object["axes"] = Json::array();
@@ -363,40 +125,20 @@ Json grid_object(const Task& task, const std::vector<const Outcome*>& points) {
     object["orders"].push_back(fmt::format("{}", fmt::join(order, "")));
   }
   Json errors;
-  object["cost"] = matrix_of(grid, points, [](const Outcome& point) { return point.cost.mean; });
+  object["cost"] =
+      matrix_of(grid, points, [](const SweepOutcome& point) { return point.cost.mean; });
   errors["cost"] =
-      matrix_of(grid, points, [](const Outcome& point) { return point.cost.standard_error; });
-  object["violation"] = matrix_of(grid, points, [](const Outcome& p) { return p.violation; });
+      matrix_of(grid, points, [](const SweepOutcome& point) { return point.cost.standard_error; });
+  object["violation"] = matrix_of(grid, points, [](const SweepOutcome& p) { return p.violation; });
   for (std::size_t i = 0; i < task.metrics.size(); ++i) {
     const std::string name(task.metrics[i].name);
     object[name] =
-        matrix_of(grid, points, [i](const Outcome& point) { return point.metrics[i].mean; });
-    errors[name] = matrix_of(grid, points,
-                             [i](const Outcome& point) { return point.metrics[i].standard_error; });
+        matrix_of(grid, points, [i](const SweepOutcome& point) { return point.metrics[i].mean; });
+    errors[name] = matrix_of(
+        grid, points, [i](const SweepOutcome& point) { return point.metrics[i].standard_error; });
   }
   object["standard_error"] = errors;
   return object;
-}
-
-/// On fresh screens, without those that fail there.
-/// @throws VerificationFailed where all do
-std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const Sweep& sweep,
-                                     const Task& task, RunRecord& record, const Progress* whole) {
-  std::vector<RankedDesign> verified;
-  Progress progress = verification_progress(task.verification, best.size(), "", whole);
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    const bool is_last = i + 1 == best.size();
-    std::optional<TriedDesign> tried =
-        verified_candidate(sweep.designs()[best[i]].design, task.verification, record,
-                           interruptible(progress), verified.empty() && is_last);
-    const bool is_whole =
-        !tried || static_cast<int>(tried->costs.size()) == task.verification.screen_count();
-    if (!is_whole || (InterruptWatch::interrupted() && !is_last)) {
-      throw RunInterrupted(fmt::format("in the verification; {}", record.how_to_go_on()));
-    }
-    if (tried) verified.push_back({.candidate = i, .verified = std::move(*tried)});
-  }
-  return ranked(std::move(verified));
 }
 
 /// A figure that people look at first.
@@ -410,8 +152,8 @@ constexpr std::array<MapFigure, 3> map_figures{{{"cost", "", "map-cost"},
                                                 {"fractional_loops", "", "map-fractional_loops"}}};
 
 /// @return notes where there is no map
-std::vector<std::string> draw_maps(const Task& task, const Json& grid, const CostedDesign& best,
-                                   const OutputFolder& folder) {
+std::vector<std::string> draw_maps(const SweepTask& task, const Json& grid,
+                                   const CostedDesign& best, const OutputFolder& folder) {
   std::vector<PlannedPicture> pictures;
   pictures.reserve(map_figures.size());
   for (const MapFigure& map : map_figures) {
@@ -426,7 +168,7 @@ std::vector<std::string> draw_maps(const Task& task, const Json& grid, const Cos
 void run_sweep(const Request& request) {
   const Configuration& configuration = request.configuration;
   const Stopwatch stopwatch;
-  Task task(configuration);
+  SweepTask task(configuration);
   RunRecord record(request);
   for (DesignTrial* trial : {&task.trial, &task.verification}) record.adopt(*trial);
   const std::size_t taken_over = record.archive().known_designs(task.trial.identity());
@@ -438,7 +180,7 @@ void run_sweep(const Request& request) {
                                      sweep.designs().size(), record.how_to_go_on()));
   }
 
-  const std::vector<const Outcome*> points = outcomes_of_points(task, sweep);
+  const std::vector<const SweepOutcome*> points = outcomes_of_points(task, sweep);
   record.folder().write("sweep.csv", points_table(task, points));
   const std::vector<RankedDesign> ranking =
       ranking_of(best_of(sweep, task.candidates), sweep, task, record, request.whole);

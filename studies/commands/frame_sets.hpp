@@ -1,0 +1,60 @@
+#pragma once
+
+#include "model/frame_reconstruction.hpp"
+#include "model/gerchberg_saxton.hpp"
+#include "model/statistics.hpp"
+#include "studies/settings/measured_frames.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace nlcwfs {
+
+/// What became of one set of frames.
+struct SetResult {
+  FrameReconstruction frames;
+  Image<double> phase;         ///< rad, piston removed, NaN outside the pupil
+  double wavefront_rms = 0.0;  ///< m of path over the pupil, piston removed
+  /// Relative RMS that noise alone leaves, per plane; none if not known.
+  std::vector<double> noise;
+  std::vector<double> misfit;  ///< relative RMS beyond what noise explains, per plane
+};
+
+/// All sets; after an interrupt those before the first that is not done, one at least.
+std::vector<SetResult> reconstruct_sets(const GerchbergSaxton<double>& reconstructor,
+                                        const SensorDesign& design, const Telescope& telescope,
+                                        const MeasuredFrames& measured);
+
+/// Everything that the files and texts are made of.
+struct FrameRun {
+  const Telescope& telescope;
+  const SensorDesign& design;
+  const MeasuredFrames& measured;
+  const std::vector<SetResult>& sets;
+};
+
+/// The mean of a set's figure.
+template <class Metric>
+MeanAndError mean_over_sets(const FrameRun& run, const Metric& metric) {
+  std::vector<double> values;
+  for (const SetResult& set : run.sets) values.push_back(metric(set));
+  return mean_and_standard_error(values);
+}
+
+/// A plane's figures, means over the sets.
+struct PlaneMeans {
+  MeanAndError relative_rms;
+  std::optional<MeanAndError> noise;
+  MeanAndError misfit;
+  MeanAndError correlation;
+  MeanAndError light_share;
+  MeanAndError captured_energy;
+  MeanAndError x;
+  MeanAndError y;
+};
+
+/// Of each plane, in visiting order.
+std::vector<PlaneMeans> plane_means(const FrameRun& run);
+
+}  // namespace nlcwfs
