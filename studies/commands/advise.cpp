@@ -134,6 +134,43 @@ std::string predictions_table(const std::array<Prediction, 2>& predictions) {
   return table + '\n';
 }
 
+/// What the planes are for.
+struct Site {
+  const Telescope& telescope;
+  const Seeing& seeing;
+
+  double d_over_r0() const { return telescope.diameter / seeing.fried_parameter; }
+};
+
+/// @param is_elsewhere  whether the law's designs had other settings
+void print_advice(const LawFile& file, const Site& site, const SensorDesign& design,
+                  const std::array<Prediction, 2>& predictions,
+                  const std::optional<TriedDesign>& verified, bool is_elsewhere) {
+  const double d_over_r0 = site.d_over_r0();
+  const MeanAndError near = file.law.z_near_talbot.predict(d_over_r0);
+  const MeanAndError far = file.law.far_fresnel_number.predict(d_over_r0);
+  fmt::print("{}\n\nAdvised design, planes in visiting order:\n{}\n",
+             telescope_line(site.telescope, site.seeing),
+             planes_table(design, site.telescope, site.seeing,
+                          verified ? &verified->performances.front() : nullptr));
+  fmt::print("The law knows the near pair's distance to {:.0f} %, the far pair's to {:.0f} %.\n\n",
+             100.0 * near.standard_error / near.mean, 100.0 * far.standard_error / far.mean);
+  fmt::print("By the law of {} searches, D/r0 = {:g} to {:g}{}{}:\n{}", file.data.size(),
+             file.law.least_d_over_r0, file.law.greatest_d_over_r0,
+             is_elsewhere ? ", for its own settings (see the notes)" : "",
+             verified ? fmt::format(", and on {} fresh screens",
+                                    verified->performances.front().screens.size())
+                      : "",
+             predictions_table(predictions));
+  if (file.law.extrapolates(d_over_r0)) {
+    fmt::print(
+        "warning: D/r0 = {:.4g} is outside that range: an extrapolation, whose error is larger "
+        "than stated\n",
+        d_over_r0);
+  }
+  if (verified) fmt::print("{}", captured_energy_warnings(design, verified->performances.front()));
+}
+
 void run_advise(const Request& request) {
   const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
@@ -169,11 +206,9 @@ void run_advise(const Request& request) {
     design_json["cost"] = to_json(mean_and_standard_error(verified->costs));
     design_json["performance"] = to_json(verified->performances.front());
   }
-  const MeanAndError near = file.law.z_near_talbot.predict(d_over_r0);
-  const MeanAndError far = file.law.far_fresnel_number.predict(d_over_r0);
   Json predicted{{"extrapolated", file.law.extrapolates(d_over_r0)},
-                 {"z_near_talbot", to_json(near)},
-                 {"far_fresnel_number", to_json(far)}};
+                 {"z_near_talbot", to_json(file.law.z_near_talbot.predict(d_over_r0))},
+                 {"far_fresnel_number", to_json(file.law.far_fresnel_number.predict(d_over_r0))}};
   Json differences;
   for (Prediction& prediction : predictions) {
     const std::string metric(prediction.metric);
@@ -198,26 +233,7 @@ void run_advise(const Request& request) {
   record.write_summary(summary);
 
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n\nAdvised design, planes in visiting order:\n{}\n",
-             telescope_line(telescope, seeing),
-             planes_table(design, telescope, seeing,
-                          verified ? &verified->performances.front() : nullptr));
-  fmt::print("The law knows the near pair's distance to {:.0f} %, the far pair's to {:.0f} %.\n\n",
-             100.0 * near.standard_error / near.mean, 100.0 * far.standard_error / far.mean);
-  fmt::print("By the law of {} searches, D/r0 = {:g} to {:g}{}{}:\n{}", file.data.size(),
-             file.law.least_d_over_r0, file.law.greatest_d_over_r0,
-             is_elsewhere ? ", for its own settings (see the notes)" : "",
-             verified ? fmt::format(", and on {} fresh screens",
-                                    verified->performances.front().screens.size())
-                      : "",
-             predictions_table(predictions));
-  if (file.law.extrapolates(d_over_r0)) {
-    fmt::print(
-        "warning: D/r0 = {:.4g} is outside that range: an extrapolation, whose error is larger "
-        "than stated\n",
-        d_over_r0);
-  }
-  if (verified) fmt::print("{}", captured_energy_warnings(design, verified->performances.front()));
+  print_advice(file, {telescope, seeing}, design, predictions, verified, is_elsewhere);
   fmt::print("\nadvised.cfg holds this design, and a search from it: nlcwfs optimize --config {}\n",
              record.folder().file("advised.cfg").string());
   record.close();

@@ -83,7 +83,7 @@ double median_of(const std::vector<EvaluationTime>& times, const Figure& figure)
 }
 
 /// How long one precision of the reconstruction took each time.
-struct Trial {
+struct Timings {
   std::vector<EvaluationTime> alone;     ///< one screen on one thread
   std::vector<EvaluationTime> together;  ///< all screens on all threads
 };
@@ -132,8 +132,8 @@ class Benchmark {
   /// @throws RunInterrupted before there is one
   std::pair<Speed, Speed> speeds() {
     Progress progress("benchmark", 4.0 * repetitions_, "evaluations");
-    Trial in_double;
-    Trial in_single;
+    Timings in_double;
+    Timings in_single;
     // In turns, so that what else the machine does meets both.
     for (int repetition = 0; repetition < repetitions_; ++repetition) {
       try {
@@ -175,17 +175,17 @@ class Benchmark {
   }
 
   /// In new simulations, which have no images yet.
-  void repeat(Precision precision, Trial& trial, Progress& progress) const {
-    trial.alone.push_back(evaluation_on_one_thread(simulation(precision, 1), design_));
+  void repeat(Precision precision, Timings& timings, Progress& progress) const {
+    timings.alone.push_back(evaluation_on_one_thread(simulation(precision, 1), design_));
     progress.advance();
-    trial.together.push_back(timed_evaluation(simulation(precision, used_screens_), design_));
+    timings.together.push_back(timed_evaluation(simulation(precision, used_screens_), design_));
     progress.advance();
   }
 
-  Speed speed_of(const Trial& trial) const {
-    const std::vector<EvaluationTime>& together = trial.together;
+  Speed speed_of(const Timings& timings) const {
+    const std::vector<EvaluationTime>& together = timings.together;
     const double loop_seconds = median_of(together, &EvaluationTime::loop_seconds);
-    return {.one_thread_loop_seconds = median_of(trial.alone, &EvaluationTime::loop_seconds),
+    return {.one_thread_loop_seconds = median_of(timings.alone, &EvaluationTime::loop_seconds),
             .loop_seconds = loop_seconds,
             .loops_per_second = threads_at_work() / loop_seconds,
             .data_seconds = median_of(together, &EvaluationTime::data_seconds),
@@ -193,7 +193,7 @@ class Benchmark {
             .loops = together.front().loops,
             .design_seconds =
                 median_of(together, &EvaluationTime::seconds) * configured_screens_ / used_screens_,
-            .fft_rate = median_of(trial.alone, [this](const EvaluationTime& time) {
+            .fft_rate = median_of(timings.alone, [this](const EvaluationTime& time) {
               return Operation{.fft_rate = 1.0}.transform_seconds(design_) * time.transforms /
                      time.reconstruction_seconds;
             })};

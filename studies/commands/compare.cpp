@@ -300,6 +300,53 @@ Json effort_object(const FinishedRun& run) {
       {"designs", run.designs}, {"reconstructions", run.reconstructions}, {"seconds", run.seconds}};
 }
 
+/// How much more the sweep took than the search.
+struct EffortRatios {
+  double designs;
+  double reconstructions;
+  double seconds;
+};
+
+EffortRatios effort_ratios(const FinishedRun& sweep, const FinishedRun& optimize) {
+  return {double(sweep.designs) / optimize.designs,
+          double(sweep.reconstructions) / double(optimize.reconstructions),
+          sweep.seconds / optimize.seconds};
+}
+
+/// A run with its best design on the screens of the comparison.
+struct Side {
+  const FinishedRun& run;
+  const TriedDesign& tried;
+};
+
+void print_designs(const Side& sweep, const Side& optimize, const DesignTrial& trial,
+                   const Telescope& telescope, const Seeing& seeing, std::uint64_t seed) {
+  const Performance swept_performance = pooled(sweep.tried.performances);
+  const Performance found_performance = pooled(optimize.tried.performances);
+  fmt::print("Best of the sweep {}, planes in visiting order:\n{}\n", sweep.run.folder.string(),
+             planes_table(sweep.tried.design, telescope, seeing, &swept_performance));
+  fmt::print("Best of the optimizer {}:\n{}\n", optimize.run.folder.string(),
+             planes_table(optimize.tried.design, telescope, seeing, &found_performance));
+  fmt::print(
+      "Both on the same {} screens of seed {}, which neither has seen, true field {} "
+      "samples across the pupil:\n{}",
+      sweep.tried.costs.size(), seed, trial.conditions().front().simulation->truth_samples(),
+      performance_table({{"sweep", &swept_performance, sweep.tried.costs},
+                         {"optimize", &found_performance, optimize.tried.costs}}));
+}
+
+void print_efforts(const FinishedRun& sweep, const FinishedRun& optimize) {
+  const EffortRatios ratios = effort_ratios(sweep, optimize);
+  fmt::print("  {:<22} {:>14} {:>14} {:>10}\n", "what finding it took", "sweep", "optimize",
+             "ratio");
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "designs", sweep.designs, optimize.designs,
+             ratios.designs);
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "reconstructions", sweep.reconstructions,
+             optimize.reconstructions, ratios.reconstructions);
+  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n\n", "time", duration_text(sweep.seconds),
+             duration_text(optimize.seconds), ratios.seconds);
+}
+
 void run_compare(const Request& request) {
   const FinishedRun sweep = finished_run("SWEEP", "sweep", request.arguments.at(0));
   const FinishedRun optimize = finished_run("OPTIMIZE", "optimize", request.arguments.at(1));
@@ -326,10 +373,7 @@ void run_compare(const Request& request) {
   found = trial.on_first_screens(std::move(found), screens);
   record.note_missing_screens(found, trial);
   const Improvement gain = improvement(found, swept);
-  const double designs_ratio = double(sweep.designs) / optimize.designs;
-  const double reconstructions_ratio =
-      double(sweep.reconstructions) / double(optimize.reconstructions);
-  const double seconds_ratio = sweep.seconds / optimize.seconds;
+  const EffortRatios ratios = effort_ratios(sweep, optimize);
   try {
     if (const auto reason =
             write_path_picture(sweep, optimize, telescope, seeing, record.folder())) {
@@ -347,33 +391,15 @@ void run_compare(const Request& request) {
         {{"sweep", effort_object(sweep)},
          {"optimize", effort_object(optimize)},
          {"sweep_per_optimize",
-          {{"designs", designs_ratio},
-           {"reconstructions", reconstructions_ratio},
-           {"seconds", seconds_ratio}}}}}});
+          {{"designs", ratios.designs},
+           {"reconstructions", ratios.reconstructions},
+           {"seconds", ratios.seconds}}}}}});
 
-  const Performance swept_performance = pooled(swept.performances);
-  const Performance found_performance = pooled(found.performances);
   fmt::print("{}\n\n", telescope_line(telescope, seeing));
-  fmt::print("Best of the sweep {}, planes in visiting order:\n{}\n", sweep.folder.string(),
-             planes_table(swept.design, telescope, seeing, &swept_performance));
-  fmt::print("Best of the optimizer {}:\n{}\n", optimize.folder.string(),
-             planes_table(found.design, telescope, seeing, &found_performance));
-  fmt::print(
-      "Both on the same {} screens of seed {}, which neither has seen, true field {} "
-      "samples across the pupil:\n{}",
-      screens, configuration.seed("verify.seed"),
-      trial.conditions().front().simulation->truth_samples(),
-      performance_table({{"sweep", &swept_performance, swept.costs},
-                         {"optimize", &found_performance, found.costs}}));
+  print_designs({sweep, swept}, {optimize, found}, trial, telescope, seeing,
+                configuration.seed("verify.seed"));
   fmt::print("\n{}\n\n", verdict_text(gain, mean_and_standard_error(swept.costs).mean));
-  fmt::print("  {:<22} {:>14} {:>14} {:>10}\n", "what finding it took", "sweep", "optimize",
-             "ratio");
-  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "designs", sweep.designs, optimize.designs,
-             designs_ratio);
-  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "reconstructions", sweep.reconstructions,
-             optimize.reconstructions, reconstructions_ratio);
-  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n\n", "time", duration_text(sweep.seconds),
-             duration_text(optimize.seconds), seconds_ratio);
+  print_efforts(sweep, optimize);
   record.close();
 }
 

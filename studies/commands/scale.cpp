@@ -57,6 +57,53 @@ bool is_varied_length(const ConfigurationKey& key) {
   return (key.kind == Kind::domain || key.kind == Kind::axis) && key.element == Kind::length;
 }
 
+/// The configuration of the design at the other telescope.
+Configuration scaled_configuration(const Configuration& configuration, const Telescope& from,
+                                   const Telescope& to, const Seeing& seeing) {
+  const double waves = to.wavelength / from.wavelength;
+  Configuration scaled = configuration;
+  const auto set = [&](std::string_view key, const std::string& value) {
+    scaled.set(key, value, "by scale");
+  };
+  set("telescope.diameter", fmt::format("{}", to.diameter));
+  set("telescope.wavelength", fmt::format("{}", to.wavelength));
+  if (to.relay_beam_diameter) {
+    set("telescope.relay_beam_diameter", fmt::format("{}", *to.relay_beam_diameter));
+  }
+  set("seeing.d_over_r0", fmt::format("{}", to.diameter / seeing.fried_parameter));
+  if (seeing.outer_scale) {
+    set("seeing.outer_scale", fmt::format("{}", *seeing.outer_scale));
+  }
+  // Every distance, so that the file also searches at the new telescope.
+  const auto moved = [&](double distance) { return scaled_distance(distance, from, to); };
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (key.name.ends_with(".planes")) {
+      std::vector<double> planes = configuration.lengths(key.name);
+      std::ranges::transform(planes, planes.begin(), moved);
+      set(key.name, fmt::format("{}", fmt::join(planes, ",")));
+    } else if (is_varied_length(key) && configuration.is_set(key.name)) {
+      // Tolerances are optical path, everything else is a distance.
+      const bool is_path = key.name.ends_with("tolerance");
+      set(key.name, with_lengths(configuration.value_text(key.name), [&](double length) {
+            return is_path ? length * to.wavelength / from.wavelength : moved(length);
+          }));
+    }
+  }
+  if (configuration.is_set("source.bands")) {
+    std::vector<std::string> bands;
+    for (const Band& band : configuration.bands("source.bands")) {
+      bands.push_back(fmt::format("{}:{}", band.shortest * waves, band.longest * waves));
+    }
+    set("source.bands", fmt::format("{}", fmt::join(bands, ",")));
+  }
+  // Equal designs are equal in waves, and so are their costs.
+  set("objective.wfe_scale", fmt::format("{}", configuration.length("objective.wfe_scale") *
+                                                   to.wavelength / from.wavelength));
+  set("reconstruction.tolerance",
+      fmt::format("{}", configuration.length("reconstruction.tolerance") * waves));
+  return scaled;
+}
+
 void run_scale(const Request& request) {
   const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
@@ -75,47 +122,8 @@ void run_scale(const Request& request) {
   scaled.reconstruction.tolerance *= target.wavelength / telescope.wavelength;
   RunRecord record(request);
 
-  Configuration scaled_configuration = configuration;
-  const auto set = [&](std::string_view key, const std::string& value) {
-    scaled_configuration.set(key, value, "by scale");
-  };
-  set("telescope.diameter", fmt::format("{}", target.diameter));
-  set("telescope.wavelength", fmt::format("{}", target.wavelength));
-  if (target.relay_beam_diameter) {
-    set("telescope.relay_beam_diameter", fmt::format("{}", *target.relay_beam_diameter));
-  }
-  set("seeing.d_over_r0", fmt::format("{}", target.diameter / target_seeing.fried_parameter));
-  if (target_seeing.outer_scale) {
-    set("seeing.outer_scale", fmt::format("{}", *target_seeing.outer_scale));
-  }
-  // Every distance, so that the file also searches at the new telescope.
-  const auto moved = [&](double distance) { return scaled_distance(distance, telescope, target); };
-  for (const ConfigurationKey& key : configuration_keys()) {
-    if (key.name.ends_with(".planes")) {
-      std::vector<double> planes = configuration.lengths(key.name);
-      std::ranges::transform(planes, planes.begin(), moved);
-      set(key.name, fmt::format("{}", fmt::join(planes, ",")));
-    } else if (is_varied_length(key) && configuration.is_set(key.name)) {
-      // Tolerances are optical path, everything else is a distance.
-      const bool is_path = key.name.ends_with("tolerance");
-      set(key.name, with_lengths(configuration.value_text(key.name), [&](double length) {
-            return is_path ? length * target.wavelength / telescope.wavelength : moved(length);
-          }));
-    }
-  }
-  if (configuration.is_set("source.bands")) {
-    std::vector<std::string> bands;
-    for (const Band& band : configuration.bands("source.bands")) {
-      const double ratio = target.wavelength / telescope.wavelength;
-      bands.push_back(fmt::format("{}:{}", band.shortest * ratio, band.longest * ratio));
-    }
-    set("source.bands", fmt::format("{}", fmt::join(bands, ",")));
-  }
-  // Equal designs are equal in waves, and so are their costs.
-  set("objective.wfe_scale", fmt::format("{}", configuration.length("objective.wfe_scale") *
-                                                   target.wavelength / telescope.wavelength));
-  set("reconstruction.tolerance", fmt::format("{}", scaled.reconstruction.tolerance));
-  record.folder().write("scaled.cfg", scaled_configuration.dump());
+  record.folder().write(
+      "scaled.cfg", scaled_configuration(configuration, telescope, target, target_seeing).dump());
   record.write_summary({{"design", to_json(design, telescope, seeing.fried_parameter)},
                         {"scaled", to_json(scaled, target, target_seeing.fried_parameter)},
                         {"scaled_telescope",

@@ -51,6 +51,25 @@ std::string structure_function_table(const std::vector<PhaseScreen>& screens, do
   return table.text();
 }
 
+/// Of the cube of screens.
+std::vector<FitsKeyword> keywords_of(const Configuration& configuration, const Telescope& telescope,
+                                     const Seeing& seeing, int samples) {
+  const double pitch = telescope.diameter / samples;
+  std::vector<FitsKeyword> keywords =
+      axis_keywords({centred_axis("X", samples, pitch),
+                     centred_axis("Y", samples, pitch),
+                     {.name = "SCREEN", .description = "counted from 0"}});
+  keywords.push_back({"DIAMETER", telescope.diameter, "[m] pupil diameter = width of the square"});
+  keywords.push_back({"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"});
+  // What made the screens of a file is not known.
+  if (configuration.text("screens.file").empty()) {
+    keywords.push_back({"SEED", configuration.seed("screens.seed"), "seed of the screens"});
+    keywords.push_back({"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"});
+    if (seeing.outer_scale) keywords.push_back({"L0", *seeing.outer_scale, "[m] outer scale"});
+  }
+  return keywords;
+}
+
 void run_screens(const Request& request) {
   const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
@@ -84,21 +103,10 @@ void run_screens(const Request& request) {
       noll_tilt_removed_variance(telescope.diameter, seeing.fried_parameter);
 
   const double pitch = telescope.diameter / samples;
-  std::vector<FitsKeyword> keywords =
-      axis_keywords({centred_axis("X", samples, pitch),
-                     centred_axis("Y", samples, pitch),
-                     {.name = "SCREEN", .description = "counted from 0"}});
-  keywords.push_back({"DIAMETER", telescope.diameter, "[m] pupil diameter = width of the square"});
-  keywords.push_back({"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"});
-  // What made the screens of a file is not known.
-  if (configuration.text("screens.file").empty()) {
-    keywords.push_back({"SEED", configuration.seed("screens.seed"), "seed of the screens"});
-    keywords.push_back({"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"});
-    if (seeing.outer_scale) keywords.push_back({"L0", *seeing.outer_scale, "[m] outer scale"});
-  }
   record.folder().write("structure_function.csv", structure_function_table(screens, pitch, seeing));
   const std::size_t count = screens.size();
-  write_fits_cube(record.folder().file("screens.fits"), {"rad", std::move(screens)}, keywords);
+  write_fits_cube(record.folder().file("screens.fits"), {"rad", std::move(screens)},
+                  keywords_of(configuration, telescope, seeing, samples));
   record.write_summary({{"screens", count},
                         {"samples", samples},
                         {"fried_parameter_m", seeing.fried_parameter},

@@ -165,6 +165,64 @@ std::vector<std::string> draw_maps(const SweepTask& task, const Json& grid,
   return draw_pictures(pictures, folder);
 }
 
+/// What people are told of a sweep.
+struct SweepResult {
+  const TriedDesign& best;               ///< on fresh screens
+  const TriedDesign& on_search_screens;  ///< the same design
+  const std::vector<RankedDesign>& ranking;
+  int evaluations;
+  int failures;
+  std::size_t taken_over;  ///< designs of an earlier run
+  double seconds;          ///< that the grid took
+  std::string precision;
+};
+
+Json summary_of(const SweepTask& task, const SweepResult& result, const Json& grid) {
+  const auto conditions = static_cast<std::int64_t>(task.trial.conditions().size());
+  const std::int64_t tried = result.evaluations - result.failures;
+  const int screens = task.trial.screen_count();
+  const std::int64_t fresh =
+      static_cast<std::int64_t>(result.ranking.size()) * task.verification.screen_count();
+  return {{"best", to_json(result.best, task.verification)},
+          {"best_on_search_screens", to_json(result.on_search_screens, task.trial)},
+          {"ranking", to_json(result.ranking, task.verification)},
+          {"grid", grid},
+          {"points", task.grid.size()},
+          {"evaluations", result.evaluations},
+          {"failures", result.failures},
+          {"search_reconstructions", tried * screens * conditions},
+          {"reconstructions", ((tried + 1) * screens + fresh) * conditions}};
+}
+
+void print_result(const RunRecord& record, const SweepTask& task, const SweepResult& result,
+                  const std::vector<std::string>& notes) {
+  const Performance performance = pooled(result.best.performances);
+  const Performance search_performance = pooled(result.on_search_screens.performances);
+  for (const std::string& note : notes) record.print("note: {}\n", note);
+  record.print("{}\n", telescope_line(task.telescope, task.seeing));
+  record.print(
+      "Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
+      result.evaluations, task.grid.size(), task.trial.screen_count(), result.precision,
+      duration_text(result.seconds),
+      result.taken_over > 0 ? fmt::format(" ({} of them in an earlier run)", result.taken_over)
+                            : "",
+      result.failures > 0 ? fmt::format("; {} of them failed, see sweep.csv", result.failures)
+                          : "");
+  record.print("Best design, planes in visiting order:\n{}\n",
+               planes_table(result.best.design, task.telescope, task.seeing, &performance));
+  record.print(
+      "On the sweep's {} screens, and on {} fresh ones with the true field {} samples across "
+      "the pupil:\n{}",
+      task.trial.screen_count(), task.verification.screen_count(),
+      task.verification.conditions().front().simulation->truth_samples(),
+      performance_table({{"sweep's screens", &search_performance, result.on_search_screens.costs},
+                         {"fresh screens", &performance, result.best.costs}}));
+  record.print("{}\n{}{}{}\n", conditions_table(result.best, task.verification),
+               ranking_text(result.ranking, "The sweep"),
+               limits_text(result.best, task.verification),
+               captured_energy_warnings(result.best.design, performance));
+}
+
 void run_sweep(const Request& request) {
   const Configuration& configuration = request.configuration;
   const Stopwatch stopwatch;
@@ -196,25 +254,19 @@ void run_sweep(const Request& request) {
       draw_maps(task, grid, {best.design, mean_and_standard_error(on_search_screens.costs).mean},
                 record.folder()),
       std::back_inserter(notes));
-  const auto failures = static_cast<int>(std::ranges::count_if(
-      sweep.outcomes(), [](const auto& outcome) { return !outcome->failure.empty(); }));
-  const auto evaluations = static_cast<int>(sweep.designs().size());
-  Json summary{
-      {"best", to_json(best, task.verification)},
-      {"best_on_search_screens", to_json(on_search_screens, task.trial)},
-      {"ranking", to_json(ranking, task.verification)},
-      {"grid", grid},
-      {"points", task.grid.size()},
-      {"evaluations", evaluations},
-      {"failures", failures},
-      {"search_reconstructions", std::int64_t(evaluations - failures) * task.trial.screen_count() *
-                                     static_cast<std::int64_t>(task.trial.conditions().size())},
-      {"reconstructions",
-       (std::int64_t(evaluations - failures + 1) * task.trial.screen_count() +
-        static_cast<std::int64_t>(ranking.size()) * task.verification.screen_count()) *
-           static_cast<std::int64_t>(task.trial.conditions().size())},
-      {"wall_seconds", seconds_before + stopwatch.seconds()},
-      {"search_seconds", sweep.seconds()}};
+  const SweepResult result{
+      .best = best,
+      .on_search_screens = on_search_screens,
+      .ranking = ranking,
+      .evaluations = static_cast<int>(sweep.designs().size()),
+      .failures = static_cast<int>(std::ranges::count_if(
+          sweep.outcomes(), [](const auto& outcome) { return !outcome->failure.empty(); })),
+      .taken_over = taken_over,
+      .seconds = sweep.seconds(),
+      .precision = configuration.choice("search.precision")};
+  Json summary = summary_of(task, result, grid);
+  summary["wall_seconds"] = seconds_before + stopwatch.seconds();
+  summary["search_seconds"] = sweep.seconds();
   if (!request.silent) {
     for (const MapFigure& map : map_figures) {
       write_grid_map(grid, map.name, map.unit,
@@ -226,28 +278,7 @@ void run_sweep(const Request& request) {
   }
   record.write_summary(summary);
 
-  const Performance performance = pooled(best.performances);
-  const Performance search_performance = pooled(on_search_screens.performances);
-  for (const std::string& note : notes) record.print("note: {}\n", note);
-  record.print("{}\n", telescope_line(task.telescope, task.seeing));
-  record.print(
-      "Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
-      evaluations, task.grid.size(), task.trial.screen_count(),
-      configuration.choice("search.precision"), duration_text(sweep.seconds()),
-      taken_over > 0 ? fmt::format(" ({} of them in an earlier run)", taken_over) : "",
-      failures > 0 ? fmt::format("; {} of them failed, see sweep.csv", failures) : "");
-  record.print("Best design, planes in visiting order:\n{}\n",
-               planes_table(best.design, task.telescope, task.seeing, &performance));
-  record.print(
-      "On the sweep's {} screens, and on {} fresh ones with the true field {} samples across "
-      "the pupil:\n{}",
-      task.trial.screen_count(), task.verification.screen_count(),
-      task.verification.conditions().front().simulation->truth_samples(),
-      performance_table({{"sweep's screens", &search_performance, on_search_screens.costs},
-                         {"fresh screens", &performance, best.costs}}));
-  record.print("{}\n{}{}{}\n", conditions_table(best, task.verification),
-               ranking_text(ranking, "The sweep"), limits_text(best, task.verification),
-               captured_energy_warnings(best.design, performance));
+  print_result(record, task, result, notes);
   record.close();
 }
 
