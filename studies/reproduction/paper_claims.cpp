@@ -45,9 +45,9 @@ std::vector<Claim> checked_claims(const ReproducedRuns& runs,
                   .papers = std::string(rule.papers),
                   .rule = std::string(rule.rule),
                   .findings = {}};
-      for (const Setup setup : setups) {
+      for (const StudySetup setup : setups) {
         ClaimFinding finding = rule.find(SetupRuns(runs, setup));
-        finding.why = setup == Setup::paper ? rule.papers_why : rule.extended_why;
+        finding.why = setup == StudySetup::paper ? rule.papers_why : rule.extended_why;
         claim.findings.emplace(setup, std::move(finding));
       }
       claims.push_back(std::move(claim));

@@ -29,11 +29,11 @@ struct ClaimFinding {
 
 /// A sentence of the paper that can be checked.
 struct Claim {
-  std::string figure;                      ///< of reproduced_figures, whose runs it is checked on
-  std::string sentence;                    ///< in our words
-  std::string papers;                      ///< its number
-  std::string rule;                        ///< what counts as reproduced, and what as its trend
-  std::map<Setup, ClaimFinding> findings;  ///< of each set-up
+  std::string figure;    ///< of reproduced_figures, whose runs it is checked on
+  std::string sentence;  ///< in our words
+  std::string papers;    ///< its number
+  std::string rule;      ///< what counts as reproduced, and what as its trend
+  std::map<StudySetup, ClaimFinding> findings;  ///< of each set-up
 };
 
 /// The claims that the figures' runs can check, in the order of the paper.

@@ -55,15 +55,15 @@ void require_papers_case(const Configuration& configuration) {
 }
 
 /// The paper's planes in one of the two set-ups.
-Configuration base_of(const Configuration& given, Setup setup) {
+Configuration base_of(const Configuration& given, StudySetup setup) {
   Configuration configuration = given;
   configuration.set("reproduce.figures", Configuration().text("reproduce.figures"), source);
-  if (setup == Setup::paper) {
+  if (setup == StudySetup::paper) {
     const auto paper = std::ranges::find(presets(), "paper", &Preset::name);
     set_defaults(configuration, paper->values);
   }
   // What makes it this set-up, whatever is given.
-  const bool is_paper = setup == Setup::paper;
+  const bool is_paper = setup == StudySetup::paper;
   configuration.set("simulation.truth", is_paper ? "matched" : "extended", source);
   configuration.set("reconstruction.stopping", is_paper ? "rms_change" : "difference", source);
   configuration.set("source.aberration", is_paper ? "phase" : "path", source);
@@ -88,7 +88,7 @@ class Plan {
     runs_.push_back({folder, command, std::move(configuration)});
   }
 
-  Configuration base(Setup setup) const { return base_of(given_, setup); }
+  Configuration base(StudySetup setup) const { return base_of(given_, setup); }
 
   /// min:max:count of a map's axes.
   std::string map_axis() const {
@@ -106,7 +106,7 @@ class Plan {
   std::vector<PlannedRun> runs_;
 };
 
-void add_map(Plan& plan, Setup setup, int ratio, const std::string& order,
+void add_map(Plan& plan, StudySetup setup, int ratio, const std::string& order,
              const std::string& folder) {
   plan.add(folder, "sweep", plan.base(setup),
            {{"seeing.d_over_r0", fmt::format("{}", ratio)},
@@ -117,12 +117,12 @@ void add_map(Plan& plan, Setup setup, int ratio, const std::string& order,
             {"sweep.crossed_pairs", "left_out"}});
 }
 
-void add_four_plane_map(Plan& plan, Setup setup, int ratio) {
+void add_four_plane_map(Plan& plan, StudySetup setup, int ratio) {
   add_map(plan, setup, ratio, "1234", fmt::format("figure-3/{}-{}", to_string(setup), ratio));
 }
 
 /// The paper's planes, or others at its distances, one for one.
-void add_design(Plan& plan, Setup setup, const std::string& name,
+void add_design(Plan& plan, StudySetup setup, const std::string& name,
                 const std::vector<std::size_t>& papers_places) {
   Configuration configuration = plan.base(setup);
   const std::vector<double> papers = configuration.lengths("sensor.planes");
@@ -134,7 +134,7 @@ void add_design(Plan& plan, Setup setup, const std::string& name,
        {"screens.count", fmt::format("{}", more_screens * plan.given().integer("screens.count"))}});
 }
 
-void add_four_planes(Plan& plan, Setup setup) {
+void add_four_planes(Plan& plan, StudySetup setup) {
   add_design(plan, setup, "four-planes", {0, 1, 2, 3});
 }
 
@@ -147,7 +147,7 @@ std::string fifth_planes(int half_count) {
   return fmt::format("{}", fmt::join(planes, ","));
 }
 
-void add_fifth_plane(Plan& plan, Setup setup) {
+void add_fifth_plane(Plan& plan, StudySetup setup) {
   Configuration configuration = plan.base(setup);
   const std::vector<double> planes = configuration.lengths("sensor.planes");
   std::vector<std::pair<std::string, std::string>> values{
@@ -159,20 +159,20 @@ void add_fifth_plane(Plan& plan, Setup setup) {
 }
 
 /// The near pair at the Talbot distance of r0, as the paper finds best.
-void add_sampling(Plan& plan, Setup setup, int ratio) {
+void add_sampling(Plan& plan, StudySetup setup, int ratio) {
   const Telescope telescope;
   const double near = talbot_distance(telescope.diameter / ratio, telescope.wavelength);
   plan.add(fmt::format("figure-6/{}-{}", to_string(setup), ratio), "sweep", plan.base(setup),
            {{"seeing.d_over_r0", fmt::format("{}", ratio)},
             {"sensor.planes", fmt::format("{0},{1},-180km,180km", -near, near)},
-            {"simulation.truth", setup == Setup::paper ? "periodic" : "extended"},
+            {"simulation.truth", setup == StudySetup::paper ? "periodic" : "extended"},
             {"simulation.pupil_samples", "128"},
             {"detector.pupil_pixels", "128"},
             {"verify.truth_factor", "1"},
             {"sweep.pupil_pixels", "128,64,32,16,8"}});
 }
 
-void add_broadband(Plan& plan, Setup setup, const PaperBand& band) {
+void add_broadband(Plan& plan, StudySetup setup, const PaperBand& band) {
   std::vector<std::pair<std::string, std::string>> values{{"seeing.d_over_r0", "6"},
                                                           {"detector.pupil_pixels", "128"}};
   if (!band.bands.empty()) {
@@ -184,7 +184,7 @@ void add_broadband(Plan& plan, Setup setup, const PaperBand& band) {
 }
 
 /// The paper's design at another telescope, at its Fresnel numbers and with its tolerance in waves.
-void add_scaled(Plan& plan, Setup setup, const NamedSettings& settings) {
+void add_scaled(Plan& plan, StudySetup setup, const NamedSettings& settings) {
   Configuration configuration = plan.base(setup);
   const Telescope from = telescope_of(configuration);
   for (const auto& [key, value] : settings.settings) configuration.set(key, value, source);
@@ -201,18 +201,18 @@ void add_scaled(Plan& plan, Setup setup, const NamedSettings& settings) {
 
 /// Of the paper's planes, without noise and with photons, and of pairs of planes.
 void add_responses(Plan& plan) {
-  const Configuration base = plan.base(Setup::extended);
+  const Configuration base = plan.base(StudySetup::extended);
   plan.add("response/noise-free", "response", base, {{"response.distances", "5km:205km:21"}});
   plan.add("response/photons", "response", base, {{"detector.photons", "1e6"}});
 }
 
-void add_figure_3(Plan& plan, Setup setup) {
+void add_figure_3(Plan& plan, StudySetup setup) {
   for (const int ratio : map_ratios) add_four_plane_map(plan, setup, ratio);
   add_four_planes(plan, setup);
   add_design(plan, setup, "pairs-exchanged", {2, 3, 0, 1});
 }
 
-void add_figure_4(Plan& plan, Setup setup) {
+void add_figure_4(Plan& plan, StudySetup setup) {
   add_four_plane_map(plan, setup, 4);
   add_map(plan, setup, 4, "124", fmt::format("figure-4/{}-without-p3", to_string(setup)));
   add_map(plan, setup, 4, "234", fmt::format("figure-4/{}-without-p1", to_string(setup)));
@@ -223,7 +223,7 @@ void add_figure_4(Plan& plan, Setup setup) {
 }
 
 /// The figures whose runs are made in either setup.
-void add_figures(Plan& plan, Setup setup, const std::predicate<std::string_view> auto& wants) {
+void add_figures(Plan& plan, StudySetup setup, const std::predicate<std::string_view> auto& wants) {
   if (wants("3")) add_figure_3(plan, setup);
   if (wants("4")) add_figure_4(plan, setup);
   if (wants("5")) {
@@ -247,15 +247,17 @@ void add_numerics(Plan& plan, int screens) {
       auto settings = variant.settings;
       settings.insert(settings.end(), probe.settings.begin(), probe.settings.end());
       plan.add(fmt::format("numerics/{}/{}", variant.name, probe.name),
-               probe.name == "medium-band" ? "convergence" : "evaluate", plan.base(Setup::paper),
-               settings);
+               probe.name == "medium-band" ? "convergence" : "evaluate",
+               plan.base(StudySetup::paper), settings);
     }
   }
 }
 
 }  // namespace
 
-std::string_view to_string(Setup setup) { return setup == Setup::paper ? "paper" : "extended"; }
+std::string_view to_string(StudySetup setup) {
+  return setup == StudySetup::paper ? "paper" : "extended";
+}
 
 const std::vector<NamedSettings>& scaled_telescopes() {
   static const std::vector<NamedSettings> telescopes{
@@ -377,7 +379,7 @@ std::vector<PlannedRun> planned_runs(const Configuration& configuration) {
     return std::ranges::count(figures, figure) > 0;
   };
   Plan plan(configuration);
-  for (const Setup setup : setups) add_figures(plan, setup, wants);
+  for (const StudySetup setup : setups) add_figures(plan, setup, wants);
   if (wants("response")) add_responses(plan);
   if (wants("numerics")) add_numerics(plan, configuration.integer("screens.count"));
   return std::move(plan).runs();

@@ -21,14 +21,14 @@ inline constexpr std::array<std::string_view, 9> reproduced_figures{
     "3", "4", "5", "6", "7", "8", "scaling", "response", "numerics"};
 
 /// In which of two set-ups a study is run.
-enum class Setup {
+enum class StudySetup {
   paper,    ///< the paper's: data on the reconstruction's own grid, rms_change
   extended  ///< data on an extended grid, difference
 };
 /// Both of them.
-inline constexpr std::array setups{Setup::paper, Setup::extended};
+inline constexpr std::array setups{StudySetup::paper, StudySetup::extended};
 /// As names of runs have it.
-std::string_view to_string(Setup setup);
+std::string_view to_string(StudySetup setup);
 
 /// D/r0 of the maps of figure 3.
 inline constexpr std::array map_ratios{4, 6, 8};

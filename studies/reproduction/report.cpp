@@ -23,8 +23,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double km = 1e3;
 
-std::string_view title_of(Setup setup) {
-  return setup == Setup::paper ? "the paper's set-up" : "extended truth, rule difference";
+std::string_view title_of(StudySetup setup) {
+  return setup == StudySetup::paper ? "the paper's set-up" : "extended truth, rule difference";
 }
 
 /// A quantity over the distances of two pairs of planes; NaN where there is no design.
@@ -145,8 +145,8 @@ class Report {
         "Z_T and Z_far from 150 km on. `a +- b` is a mean with its standard error, `a (b to c)` a "
         "median with what eight tenths are within. Maps are searched in single precision, all else "
         "is in double.\n\n",
-        screens_, more_screens * screens_, claims_.size(), count_text(claims_, Setup::paper),
-        count_text(claims_, Setup::extended));
+        screens_, more_screens * screens_, claims_.size(), count_text(claims_, StudySetup::paper),
+        count_text(claims_, StudySetup::extended));
   }
 
   void add_heading(const std::string& heading, const std::string& text) {
@@ -155,12 +155,12 @@ class Report {
 
   /// The claims that a figure's runs check.
   void add_claims(const std::string& figure) {
-    text_ += table_head({"the paper says", "its number", std::string(title_of(Setup::paper)),
-                         std::string(title_of(Setup::extended)), "counts as reproduced"});
+    text_ += table_head({"the paper says", "its number", std::string(title_of(StudySetup::paper)),
+                         std::string(title_of(StudySetup::extended)), "counts as reproduced"});
     for (const Claim& claim : claims_) {
       if (claim.figure != figure) continue;
       std::vector<std::string> cells{claim.sentence, claim.papers};
-      for (const Setup setup : setups) {
+      for (const StudySetup setup : setups) {
         const ClaimFinding& finding = claim.findings.at(setup);
         cells.push_back(fmt::format("**{}**: {}. *{}*", to_string(finding.verdict), finding.number,
                                     finding.why));
@@ -172,7 +172,7 @@ class Report {
   }
 
   /// The maps of four planes, as the paper's figure 3 has them: D/r0 to the right.
-  void add_four_plane_maps(Setup setup) {
+  void add_four_plane_maps(StudySetup setup) {
     std::vector<std::vector<std::string>> rows(2);
     std::vector<std::string> heads;
     for (const int ratio : map_ratios) {
@@ -187,7 +187,7 @@ class Report {
 
   /// Those of three and four planes, with the time as the paper has it: the loops, by the time that
   /// one takes.
-  void add_plane_count_maps(Setup setup) {
+  void add_plane_count_maps(StudySetup setup) {
     struct Column {
       const char* head;
       std::string run;
@@ -217,7 +217,7 @@ class Report {
     add_pictures(setup, heads, rows);
   }
 
-  void add_fifth_plane(Setup setup) {
+  void add_fifth_plane(StudySetup setup) {
     const Json& grid = runs_.summary(fmt::format("figure-5/{}", to_string(setup))).at("grid");
     const Json& four = runs_.summary(fmt::format("designs/{}-four-planes", to_string(setup)))
                            .at("design")
@@ -262,13 +262,13 @@ class Report {
 
   void add_sampling() {
     std::vector<std::string> shown;
-    for (const Setup setup : setups) shown.push_back(draw_sampling(setup));
+    for (const StudySetup setup : setups) shown.push_back(draw_sampling(setup));
     add_both(shown);
   }
 
   void add_medium_band() {
     std::vector<std::string> shown;
-    for (const Setup setup : setups) {
+    for (const StudySetup setup : setups) {
       shown.push_back(copied(fmt::format("figure-8/{}-medium", to_string(setup)), "convergence",
                              fmt::format("figure-7-{}", to_string(setup)),
                              fmt::format("medium band, {}", title_of(setup))));
@@ -278,17 +278,17 @@ class Report {
 
   void add_bands() {
     std::vector<std::string> shown;
-    for (const Setup setup : setups) shown.push_back(draw_bands(setup));
+    for (const StudySetup setup : setups) shown.push_back(draw_bands(setup));
     add_both(shown);
   }
 
   void add_scaling() {
     std::vector<std::string> heads{"telescope"};
-    for (const Setup setup : setups) heads.emplace_back(title_of(setup));
+    for (const StudySetup setup : setups) heads.emplace_back(title_of(setup));
     text_ += table_head(heads);
     for (const NamedSettings& telescope : scaled_telescopes()) {
       std::vector<std::string> cells{telescope.name};
-      for (const Setup setup : setups) {
+      for (const StudySetup setup : setups) {
         const Json& performance =
             runs_.summary(fmt::format("scaling/{}-{}", to_string(setup), telescope.name))
                 .at("design")
@@ -386,7 +386,7 @@ class Report {
                  write_picture(picture, folder_.file(name)));
   }
 
-  std::string draw_sampling(Setup setup) {
+  std::string draw_sampling(StudySetup setup) {
     CurvePicture picture{.title = fmt::format("Sampling, {}", title_of(setup)),
                          .x_label = "pixels per r0",
                          .y_label = "field-estimated Strehl ratio",
@@ -418,7 +418,7 @@ class Report {
     return draw(picture, name);
   }
 
-  std::string draw_bands(Setup setup) {
+  std::string draw_bands(StudySetup setup) {
     CurvePicture picture{.title = fmt::format("D/r0 = 6, bands of Table 1, {}", title_of(setup)),
                          .x_label = "loops",
                          .y_label = "residual WFE, nm",
@@ -469,7 +469,7 @@ class Report {
     return fmt::format("![{}]({}.png)", title, name);
   }
 
-  void add_pictures(Setup setup, const std::vector<std::string>& heads,
+  void add_pictures(StudySetup setup, const std::vector<std::string>& heads,
                     const std::vector<std::vector<std::string>>& rows) {
     text_ += fmt::format("*{}*\n\n", title_of(setup)) + table_head(heads);
     for (const std::vector<std::string>& row : rows) text_ += table_row(row);
@@ -478,8 +478,8 @@ class Report {
 
   /// One picture of each set-up, side by side.
   void add_both(const std::vector<std::string>& cells) {
-    text_ +=
-        table_head({std::string(title_of(Setup::paper)), std::string(title_of(Setup::extended))});
+    text_ += table_head(
+        {std::string(title_of(StudySetup::paper)), std::string(title_of(StudySetup::extended))});
     text_ += table_row(cells) + '\n';
   }
 
@@ -493,7 +493,7 @@ class Report {
 
 std::string claims_csv(const std::vector<Claim>& claims) {
   std::vector<std::string> columns{"figure", "claim", "papers_number"};
-  for (const Setup setup : setups) {
+  for (const StudySetup setup : setups) {
     for (const char* what : {"verdict", "number", "why"}) {
       columns.push_back(fmt::format("{}_{}", to_string(setup), what));
     }
@@ -502,7 +502,7 @@ std::string claims_csv(const std::vector<Claim>& claims) {
   CsvTable table(columns);
   for (const Claim& claim : claims) {
     table.row().add(claim.figure).add(claim.sentence).add(claim.papers);
-    for (const Setup setup : setups) {
+    for (const StudySetup setup : setups) {
       const ClaimFinding& finding = claim.findings.at(setup);
       table.add(to_string(finding.verdict)).add(finding.number).add(finding.why);
     }
@@ -513,7 +513,7 @@ std::string claims_csv(const std::vector<Claim>& claims) {
 
 }  // namespace
 
-std::string count_text(const std::vector<Claim>& claims, Setup setup) {
+std::string count_text(const std::vector<Claim>& claims, StudySetup setup) {
   std::vector<std::string> texts;
   for (const ClaimVerdict verdict : {ClaimVerdict::reproduced, ClaimVerdict::in_trend,
                                      ClaimVerdict::not_reproduced, ClaimVerdict::open}) {
@@ -540,7 +540,7 @@ std::vector<std::string> write_reproduction_report(const OutputFolder& folder,
         "In the order -near, +near, -far, +far. Residual WFE above, loops below, "
         "over Z_far (right) and Z_near (up); lines: the Talbot distance of r0. Where "
         "Z_near is larger than Z_far the designs are left out, as in the paper.");
-    for (const Setup setup : setups) report.add_four_plane_maps(setup);
+    for (const StudySetup setup : setups) report.add_four_plane_maps(setup);
     report.add_claims("3");
   }
   if (wants("scaling")) {
@@ -555,14 +555,14 @@ std::vector<std::string> write_reproduction_report(const OutputFolder& folder,
     report.add_heading("Figure 4: three planes",
                        "D/r0 = 4. Residual WFE, loops, and the loops by the time that one takes on "
                        "this machine, measured at 47 and 180 km.");
-    for (const Setup setup : setups) report.add_plane_count_maps(setup);
+    for (const StudySetup setup : setups) report.add_plane_count_maps(setup);
     report.add_claims("4");
   }
   if (wants("5")) {
     report.add_heading("Figure 5: a fifth plane",
                        "D/r0 = 4, four planes at 47 and 180 km, the fifth read last. Bars are "
                        "standard errors; the line is the mean of the four planes alone.");
-    for (const Setup setup : setups) report.add_fifth_plane(setup);
+    for (const StudySetup setup : setups) report.add_fifth_plane(setup);
     report.add_claims("5");
   }
   if (wants("6")) {

@@ -10,7 +10,7 @@
 namespace nlcwfs {
 
 /// "11 reproduced, 6 reproduced in trend, 4 not reproduced"
-std::string count_text(const std::vector<Claim>& claims, Setup setup);
+std::string count_text(const std::vector<Claim>& claims, StudySetup setup);
 
 /// Writes what a reproduction leaves beside its runs, so that the folder without them is a whole:
 /// report.md, claims.csv, and the figures as pictures, CSV and FITS.

@@ -103,7 +103,7 @@ Json claims_array(const std::vector<Claim>& claims) {
               {"claim", claim.sentence},
               {"papers_number", claim.papers},
               {"rule", claim.rule}};
-    for (const Setup setup : setups) {
+    for (const StudySetup setup : setups) {
       const ClaimFinding& finding = claim.findings.at(setup);
       json[std::string(to_string(setup))] = {{"number", finding.number},
                                              {"verdict", to_string(finding.verdict)},
@@ -140,7 +140,7 @@ void run_reproduce(const Request& request) {
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
   for (const Claim& claim : claims) {
     fmt::print("Figure {}: {} ({})\n", claim.figure, claim.sentence, claim.papers);
-    for (const Setup setup : setups) {
+    for (const StudySetup setup : setups) {
       const ClaimFinding& finding = claim.findings.at(setup);
       fmt::print("  {:<8} {:<20} {}\n", to_string(setup), to_string(finding.verdict),
                  finding.number);
@@ -149,7 +149,7 @@ void run_reproduce(const Request& request) {
   fmt::print(
       "\nIn the paper's set-up: {}.\nWith an extended truth and the rule difference: {}.\n"
       "report.md has every claim and figure.\n",
-      count_text(claims, Setup::paper), count_text(claims, Setup::extended));
+      count_text(claims, StudySetup::paper), count_text(claims, StudySetup::extended));
   record.close();
 }
 

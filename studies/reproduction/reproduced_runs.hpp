@@ -35,7 +35,7 @@ class ReproducedRuns {
 class SetupRuns {
  public:
   /// The finished runs of one set-up.
-  SetupRuns(const ReproducedRuns& runs, Setup setup) : runs_(runs), setup_(setup) {}
+  SetupRuns(const ReproducedRuns& runs, StudySetup setup) : runs_(runs), setup_(setup) {}
 
   /// @param run  below its figure, without the set-up; empty where the set-up is all of its name
   const nlohmann::ordered_json& summary(std::string_view figure, const std::string& run) const;
@@ -59,7 +59,7 @@ class SetupRuns {
   std::string path(std::string_view figure, const std::string& run) const;
 
   const ReproducedRuns& runs_;
-  Setup setup_;
+  StudySetup setup_;
 };
 
 }  // namespace nlcwfs

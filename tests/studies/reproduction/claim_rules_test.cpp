@@ -104,7 +104,7 @@ class ClaimRules : public ScratchFolder {
 
   static ClaimVerdict verdict(const std::string& figure, const std::string& start) {
     for (const Claim& claim : checked_claims(ReproducedRuns("."), {figure})) {
-      if (claim.sentence.starts_with(start)) return claim.findings.at(Setup::paper).verdict;
+      if (claim.sentence.starts_with(start)) return claim.findings.at(StudySetup::paper).verdict;
     }
     ADD_FAILURE() << "no claim " << start;
     return ClaimVerdict::open;

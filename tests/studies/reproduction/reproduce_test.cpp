@@ -106,7 +106,7 @@ using Claims = ScratchFolder;
 
 /// The residual of the design moved to each telescope, in waves.
 void write_scaling(double last) {
-  for (const Setup setup : setups) {
+  for (const StudySetup setup : setups) {
     for (const NamedSettings& telescope : scaled_telescopes()) {
       Configuration configuration;
       for (const auto& [key, value] : telescope.settings) configuration.set(key, value, "here");
@@ -127,7 +127,7 @@ void write_scaling(double last) {
 ClaimVerdict scaling_verdict() {
   const std::vector<Claim> claims = checked_claims(ReproducedRuns("."), {"scaling"});
   EXPECT_EQ(claims.size(), 1u);
-  return claims.front().findings.at(Setup::paper).verdict;
+  return claims.front().findings.at(StudySetup::paper).verdict;
 }
 
 TEST_F(Claims, AreHeldAgainstTheNumbers) {
