@@ -16,7 +16,7 @@
 #include "studies/search/closer_look.hpp"
 #include "studies/search/verified_ranking.hpp"
 #include "studies/settings/law_file.hpp"
-#include "studies/settings/setup.hpp"
+#include "studies/settings/trials.hpp"
 #include "studies/settings/units.hpp"
 
 #include <array>
@@ -183,15 +183,12 @@ void run_advise(const Request& request) {
   const SensorDesign design = advised_design(configuration, file.law, telescope, seeing);
   std::vector<std::string> notes = differing_conditions(configuration, file.conditions);
   std::optional<DesignTrial> verification;
-  if (request.flags.contains("verify")) verification = verification_trial_of(configuration);
-  if (verification) {
+  if (request.flags.contains("verify")) {
+    const FreshScreens fresh(configuration);
+    verification =
+        verification_trial_of(Setup(configuration), fresh, cost_of(configuration, false));
     verification->run_on(request.runner);
-    try {
-      verification->checked(design);
-    } catch (const InputError& error) {
-      throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
-                       fmt::format("the finer truth does not suit the design: {}", error.what()));
-    }
+    require_verifiable(*verification, {design}, fresh);
   }
   const bool is_elsewhere = !notes.empty();
   RunRecord record(request);

@@ -11,7 +11,7 @@
 #include "studies/run/run_record.hpp"
 #include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
-#include "studies/settings/setup.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -105,17 +105,15 @@ struct Speed {
 class Benchmark {
  public:
   explicit Benchmark(const Configuration& configuration)
-      : telescope_(telescope_of(configuration)),
-        seeing_(seeing_of(configuration, telescope_)),
-        options_(simulation_options_of(configuration, "simulation.precision")),
+      : setup_(configuration),
+        source_(configuration),
         // Before the screens, which may take long.
-        design_(simulated_design(design_of(configuration), telescope_, options_,
-                                 nlcwfs::truth_samples(configuration))),
+        design_(setup_.simulated()),
         threads_(thread_count()),
-        screens_(screens_of(configuration, notes_, most_screens())),
-        configured_screens_(configuration.text("screens.file").empty()
-                                ? configuration.integer("screens.count")
-                                : static_cast<int>(screens_.size())) {}
+        screens_(screens_of(source_, setup_.telescope, setup_.seeing(), setup_.samples,
+                            setup_.notes, most_screens())),
+        configured_screens_(source_.file.empty() ? source_.count
+                                                 : static_cast<int>(screens_.size())) {}
 
   /// Decides how many screens and repetitions there is time for: a few seconds for everything, or
   /// as long as three wavefronts on one thread and two on all threads take.
@@ -148,8 +146,8 @@ class Benchmark {
     return {speed_of(in_double), speed_of(in_single)};
   }
 
-  const Telescope& telescope() const { return telescope_; }
-  const Seeing& seeing() const { return seeing_; }
+  const Telescope& telescope() const { return setup_.telescope; }
+  const Seeing& seeing() const { return setup_.seeing(); }
   const SensorDesign& design() const { return design_; }
   int truth_samples() const { return static_cast<int>(screens_.front().rows()); }
   int threads() const { return threads_; }
@@ -159,7 +157,7 @@ class Benchmark {
   int used_screens() const { return used_screens_; }
   int repetitions() const { return repetitions_; }
   bool is_interrupted() const { return is_interrupted_; }
-  const std::vector<std::string>& notes() const { return notes_; }
+  const std::vector<std::string>& notes() const { return setup_.notes; }
 
  private:
   /// More would hardly change the mean number of loops; as many for each thread.
@@ -169,9 +167,9 @@ class Benchmark {
   }
 
   Simulation simulation(Precision precision, int screens) const {
-    SimulationOptions options = options_;
+    SimulationOptions options = setup_.options;
     options.precision = precision;
-    return {telescope_, {screens_.begin(), screens_.begin() + screens}, options};
+    return {setup_.telescope, {screens_.begin(), screens_.begin() + screens}, options};
   }
 
   /// In new simulations, which have no images yet.
@@ -199,10 +197,8 @@ class Benchmark {
             })};
   }
 
-  std::vector<std::string> notes_;
-  Telescope telescope_;
-  Seeing seeing_;
-  SimulationOptions options_;
+  Setup setup_;
+  ScreenSource source_;
   SensorDesign design_;
   int threads_;
   std::vector<PhaseScreen> screens_;

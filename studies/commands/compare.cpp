@@ -18,8 +18,8 @@
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/verified_ranking.hpp"
-#include "studies/settings/setup.hpp"
 #include "studies/settings/text.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <algorithm>
 #include <array>
@@ -354,9 +354,12 @@ void run_compare(const Request& request) {
   Request compared = request;
   compared.configuration = comparison_configuration(request.configuration, sweep, optimize);
   const Configuration& configuration = compared.configuration;
-  const Telescope telescope = telescope_of(configuration);
-  const Seeing seeing = seeing_of(configuration, telescope);
-  DesignTrial trial = verification_trial_of(configuration, pixels_vary(sweep, optimize));
+  const Setup setup(configuration);
+  const Telescope& telescope = setup.telescope;
+  const Seeing& seeing = setup.seeing();
+  const FreshScreens fresh(configuration);
+  DesignTrial trial =
+      verification_trial_of(setup, fresh, cost_of(configuration, pixels_vary(sweep, optimize)));
   trial.run_on(request.runner);
   for (const FinishedRun* run : {&sweep, &optimize}) (void)trial.checked(run->best);
   RunRecord record(compared);
@@ -396,8 +399,7 @@ void run_compare(const Request& request) {
            {"seconds", ratios.seconds}}}}}});
 
   fmt::print("{}\n\n", telescope_line(telescope, seeing));
-  print_designs({sweep, swept}, {optimize, found}, trial, telescope, seeing,
-                configuration.seed("verify.seed"));
+  print_designs({sweep, swept}, {optimize, found}, trial, telescope, seeing, fresh.seed);
   fmt::print("\n{}\n\n", verdict_text(gain, mean_and_standard_error(swept.costs).mean));
   print_efforts(sweep, optimize);
   record.close();

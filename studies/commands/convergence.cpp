@@ -13,7 +13,7 @@
 #include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
-#include "studies/settings/setup.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -121,12 +121,13 @@ std::string loops_text(const std::vector<LoopResiduals>& loops) {
 void run_convergence(const Request& request) {
   const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
-  const Telescope telescope = telescope_of(configuration);
-  const Seeing seeing = seeing_of(configuration, telescope);
-  std::vector<std::string> notes;
-  DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
+  Setup setup(configuration);
+  DesignTrial trial = trial_of(setup, ScreenSource(configuration), setup.options.precision,
+                               cost_of(configuration, false));
+  const Telescope& telescope = setup.telescope;
+  const Seeing& seeing = setup.seeing();
   trial.run_on(request.runner);
-  const SensorDesign design = trial.checked(design_of(configuration));
+  const SensorDesign design = trial.checked(setup.design);
   RunRecord record(request);
 
   const Simulation& simulation = *trial.conditions().front().simulation;
@@ -157,7 +158,7 @@ void run_convergence(const Request& request) {
                         {"aberrations_nm", aberrations},
                         {"residual_after_loops_nm", residuals_object(loops)}});
 
-  for (const std::string& note : notes) record.print("note: {}\n", note);
+  for (const std::string& note : setup.notes) record.print("note: {}\n", note);
   if (no_picture) record.print("note: there is no picture: {}\n", *no_picture);
   const Performance& performance = tried.performances.front();
   record.print("{}\n\n{}\n{}\n", telescope_line(telescope, seeing),

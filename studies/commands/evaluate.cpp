@@ -13,7 +13,7 @@
 #include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
-#include "studies/settings/setup.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <fmt/format.h>
 
@@ -23,11 +23,13 @@ namespace {
 void run_evaluate(const Request& request) {
   const Configuration& configuration = request.configuration;
   require_one_condition(configuration);
-  const Telescope telescope = telescope_of(configuration);
-  const Seeing seeing = seeing_of(configuration, telescope);
-  std::vector<std::string> notes;
-  DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
-  const SensorDesign design = trial.checked(design_of(configuration));
+  Setup setup(configuration);
+  DesignTrial trial = trial_of(setup, ScreenSource(configuration), setup.options.precision,
+                               cost_of(configuration, false));
+  const SensorDesign design = trial.checked(setup.design);
+  const Telescope& telescope = setup.telescope;
+  const Seeing& seeing = setup.seeing();
+  std::vector<std::string>& notes = setup.notes;
   trial.keeps_failures = false;
   RunRecord record(request);
   record.adopt(trial);

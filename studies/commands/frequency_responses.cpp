@@ -4,7 +4,6 @@
 #include "model/input_error.hpp"
 #include "objectives/design_grid.hpp"
 #include "studies/run/interrupt.hpp"
-#include "studies/settings/setup.hpp"
 
 #include <algorithm>
 
@@ -41,14 +40,11 @@ std::vector<double> frequencies_of(const Configuration& configuration, int pupil
 }  // namespace
 
 ResponseTask::ResponseTask(const Configuration& configuration)
-    : telescope(telescope_of(configuration)),
-      seeing(seeing_of(configuration, telescope)),
-      options(simulation_options_of(configuration, "simulation.precision")),
-      samples(truth_samples(configuration)),
-      wavefronts(configuration.integer("screens.count")),
-      seed(configuration.seed("screens.seed")),
+    : Setup(configuration),
+      screens(configuration),
+      wavefronts(screens.count),
       amplitude(configuration.length("response.amplitude")),
-      designs{simulated_design(design_of(configuration), telescope, options, samples)},
+      designs{simulated()},
       frequencies(frequencies_of(configuration, designs.front().detector.pupil_pixels)),
       distances(axis_of(configuration, "response.distances")) {
   require_one_condition(configuration);
@@ -59,7 +55,7 @@ ResponseTask::ResponseTask(const Configuration& configuration)
                                  DesignGrid::most_points / frequencies.size(), frequencies.size()));
   }
   for (const double distance : distances) {
-    SensorDesign pair = design_of(configuration);
+    SensorDesign pair = design;
     pair.planes = {-distance, distance};
     try {
       designs.push_back(simulated_design(pair, telescope, options, samples));
@@ -72,7 +68,8 @@ ResponseTask::ResponseTask(const Configuration& configuration)
 
 Simulation ResponseTask::simulation_of(double frequency) const {
   const double radians = amplitude / telescope.wavelength * 2.0 * std::numbers::pi;
-  return {telescope, sinusoid_screens(frequency, radians, samples, wavefronts, seed), options};
+  return {telescope, sinusoid_screens(frequency, radians, samples, wavefronts, screens.seed),
+          options};
 }
 
 namespace {

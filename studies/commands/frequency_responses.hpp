@@ -1,13 +1,10 @@
 #pragma once
 
-#include "model/seeing.hpp"
 #include "model/simulation.hpp"
 #include "model/statistics.hpp"
-#include "model/telescope.hpp"
 #include "studies/run/progress.hpp"
-#include "studies/settings/configuration.hpp"
+#include "studies/settings/trials.hpp"
 
-#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -15,7 +12,7 @@
 namespace nlcwfs {
 
 /// What the configuration asks for, checked as a whole before anything is written.
-struct ResponseTask {
+struct ResponseTask : Setup {
   explicit ResponseTask(const Configuration& configuration);
 
   /// Sinusoids of a frequency as the simulation's wavefronts.
@@ -24,12 +21,8 @@ struct ResponseTask {
   double nm_per_radian() const { return 1e9 * telescope.wavelength / (2.0 * std::numbers::pi); }
   double amplitude_nm() const { return 1e9 * amplitude; }
 
-  Telescope telescope;
-  Seeing seeing;
-  SimulationOptions options;
-  int samples;
+  ScreenSource screens;
   int wavefronts;
-  std::uint64_t seed;
   double amplitude;  ///< peak, m
   /// The configured one, then a pair of planes at each distance.
   std::vector<SensorDesign> designs;

@@ -97,7 +97,7 @@ MeanAndError with_range(double value, const OptimumRange& range) {
 /// @pre the search was not interrupted
 ScalingDatum datum_of(const DesignSearch& task, const DesignSearchResult& result) {
   const Telescope& telescope = task.telescope;
-  const double fried_parameter = task.seeing.fried_parameter;
+  const double fried_parameter = task.seeing().fried_parameter;
   const auto range_of = [&](std::string_view name) {
     return *std::ranges::find(result.ranges, name, &OptimumRange::name);
   };

@@ -120,12 +120,12 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
   const Performance best_performance = pooled(best.performances);
   const Performance baseline_performance = pooled(result.baseline.performances);
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing),
+  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing()),
              search_text(task, result, precision));
   fmt::print("Best design, planes in visiting order:\n{}{}\n",
-             planes_table(best.design, task.telescope, task.seeing, &best_performance),
+             planes_table(best.design, task.telescope, task.seeing(), &best_performance),
              choices_text(task.space, best.design));
-  fmt::print("Baseline:\n{}\n", planes_table(result.baseline.design, task.telescope, task.seeing,
+  fmt::print("Baseline:\n{}\n", planes_table(result.baseline.design, task.telescope, task.seeing(),
                                              &baseline_performance));
   fmt::print("Both on the same {} fresh screens, true field {} samples across the pupil:\n{}",
              result.best().costs.size(),
@@ -156,7 +156,7 @@ void run_optimize(const Request& request) {
   record.folder().write("search.csv", result.table);
   record.folder().write("sensitivity.csv", sensitivity_table(result.ranges));
   const CloserLook look = look_closer(task.verification, result.best(), record.folder());
-  const std::string title = picture_title(task.telescope, task.seeing);
+  const std::string title = picture_title(task.telescope, task.seeing());
   std::vector<PlannedPicture> pictures{search_picture(title, result.steps)};
   if (!result.ranges.empty()) pictures.push_back(sensitivity_picture(title, result.ranges));
   std::vector<std::string> notes = task.notes;

@@ -67,16 +67,17 @@ void run_response(const Request& request) {
   const std::size_t asked = task.frequencies.size();
   RunRecord record(request);
   const Responses responses = measured_responses(task, request.whole);
-  if (task.frequencies.size() < asked || task.wavefronts < configuration.integer("screens.count")) {
+  if (task.frequencies.size() < asked || task.wavefronts < task.screens.count) {
     record.note_interrupted(fmt::format("{} of {} frequencies were done in {} wavefronts each",
                                         task.frequencies.size(), asked, task.wavefronts));
   }
 
   std::vector<std::string> notes = write_response_files(task, responses, record.folder());
-  if (!configuration.text("screens.file").empty()) {
+  if (!task.screens.file.empty()) {
     notes.emplace_back("the wavefronts are sinusoids, none of screens.file");
   }
-  Json design = nlcwfs::to_json(task.designs.front(), task.telescope, task.seeing.fried_parameter);
+  Json design =
+      nlcwfs::to_json(task.designs.front(), task.telescope, task.seeing().fried_parameter);
   design["response"] = to_json(task, responses.front());
   Json summary{{"cycles_per_pupil", task.frequencies},
                {"amplitude_m", task.amplitude},
@@ -91,8 +92,8 @@ void run_response(const Request& request) {
   record.write_summary(summary);
 
   for (const std::string& note : notes) record.print("note: {}\n", note);
-  record.print("{}\n\n{}\n", telescope_line(task.telescope, task.seeing),
-               planes_table(task.designs.front(), task.telescope, task.seeing));
+  record.print("{}\n\n{}\n", telescope_line(task.telescope, task.seeing()),
+               planes_table(task.designs.front(), task.telescope, task.seeing()));
   record.print(
       "Sinusoids of {} (peak), cycles per pupil diameter, in {} orientations and phases, {} "
       "truth;\n"

@@ -14,7 +14,7 @@
 #include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
-#include "studies/settings/setup.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <cmath>
 
@@ -52,7 +52,7 @@ std::string structure_function_table(const std::vector<PhaseScreen>& screens, do
 }
 
 /// Of the cube of screens.
-std::vector<FitsKeyword> keywords_of(const Configuration& configuration, const Telescope& telescope,
+std::vector<FitsKeyword> keywords_of(const ScreenSource& source, const Telescope& telescope,
                                      const Seeing& seeing, int samples) {
   const double pitch = telescope.diameter / samples;
   std::vector<FitsKeyword> keywords =
@@ -62,8 +62,8 @@ std::vector<FitsKeyword> keywords_of(const Configuration& configuration, const T
   keywords.push_back({"DIAMETER", telescope.diameter, "[m] pupil diameter = width of the square"});
   keywords.push_back({"WAVELEN", telescope.wavelength, "[m] wavelength of the phases"});
   // What made the screens of a file is not known.
-  if (configuration.text("screens.file").empty()) {
-    keywords.push_back({"SEED", configuration.seed("screens.seed"), "seed of the screens"});
+  if (source.file.empty()) {
+    keywords.push_back({"SEED", source.seed, "seed of the screens"});
     keywords.push_back({"R0", seeing.fried_parameter, "[m] Fried parameter at WAVELEN"});
     if (seeing.outer_scale) keywords.push_back({"L0", *seeing.outer_scale, "[m] outer scale"});
   }
@@ -75,22 +75,22 @@ void run_screens(const Request& request) {
   require_one_condition(configuration);
   const Telescope telescope = telescope_of(configuration);
   const Seeing seeing = seeing_of(configuration, telescope);
+  const ScreenSource source(configuration);
   std::vector<std::string> notes;
   // From before the screens, of which those that are drawn are written.
   const InterruptWatch watch;
   std::vector<PhaseScreen> screens = [&] {
-    const int asked = configuration.integer("screens.count");
-    Progress progress("screens", asked, "screens", "then their statistics");
-    return screens_of(configuration, notes, asked, [&](int drawn) {
-      progress.advance(drawn);
-      return !InterruptWatch::interrupted();
-    });
+    Progress progress("screens", source.count, "screens", "then their statistics");
+    return screens_of(source, telescope, seeing, truth_samples(configuration), notes, source.count,
+                      [&](int drawn) {
+                        progress.advance(drawn);
+                        return !InterruptWatch::interrupted();
+                      });
   }();
   RunRecord record(request);
-  if (configuration.text("screens.file").empty() &&
-      static_cast<int>(screens.size()) < configuration.integer("screens.count")) {
-    record.note_interrupted(fmt::format("{} of {} screens were drawn", screens.size(),
-                                        configuration.integer("screens.count")));
+  if (source.file.empty() && static_cast<int>(screens.size()) < source.count) {
+    record.note_interrupted(
+        fmt::format("{} of {} screens were drawn", screens.size(), source.count));
   }
 
   const auto samples = static_cast<int>(screens.front().rows());
@@ -106,7 +106,7 @@ void run_screens(const Request& request) {
   record.folder().write("structure_function.csv", structure_function_table(screens, pitch, seeing));
   const std::size_t count = screens.size();
   write_fits_cube(record.folder().file("screens.fits"), {"rad", std::move(screens)},
-                  keywords_of(configuration, telescope, seeing, samples));
+                  keywords_of(source, telescope, seeing, samples));
   record.write_summary({{"screens", count},
                         {"samples", samples},
                         {"fried_parameter_m", seeing.fried_parameter},

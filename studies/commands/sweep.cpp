@@ -19,7 +19,6 @@
 #include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
-#include "studies/settings/setup.hpp"
 
 #include <algorithm>
 #include <array>
@@ -158,7 +157,7 @@ std::vector<std::string> draw_maps(const SweepTask& task, const Json& grid,
   pictures.reserve(map_figures.size());
   for (const MapFigure& map : map_figures) {
     pictures.push_back({map.file, [&, map](const auto& stem) {
-                          return write_grid_picture(picture_title(task.telescope, task.seeing),
+                          return write_grid_picture(picture_title(task.telescope, task.seeing()),
                                                     grid, map.name, best, stem);
                         }});
   }
@@ -199,7 +198,7 @@ void print_result(const RunRecord& record, const SweepTask& task, const SweepRes
   const Performance performance = pooled(result.best.performances);
   const Performance search_performance = pooled(result.on_search_screens.performances);
   for (const std::string& note : notes) record.print("note: {}\n", note);
-  record.print("{}\n", telescope_line(task.telescope, task.seeing));
+  record.print("{}\n", telescope_line(task.telescope, task.seeing()));
   record.print(
       "Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
       result.evaluations, task.grid.size(), task.trial.screen_count(), result.precision,
@@ -209,7 +208,7 @@ void print_result(const RunRecord& record, const SweepTask& task, const SweepRes
       result.failures > 0 ? fmt::format("; {} of them failed, see sweep.csv", result.failures)
                           : "");
   record.print("Best design, planes in visiting order:\n{}\n",
-               planes_table(result.best.design, task.telescope, task.seeing, &performance));
+               planes_table(result.best.design, task.telescope, task.seeing(), &performance));
   record.print(
       "On the sweep's {} screens, and on {} fresh ones with the true field {} samples across "
       "the pupil:\n{}",

@@ -134,7 +134,7 @@ ScatterPicture front_picture(const TradeSearch& task, const TradeResult& result)
       .title = fmt::format(
           "Front of {:.4g} m at {}, D/r0 = {:.4g}, on fresh screens; pale: bettered there",
           task.telescope.diameter, format_length(task.telescope.wavelength),
-          task.telescope.diameter / task.seeing.fried_parameter),
+          task.telescope.diameter / task.seeing().fried_parameter),
       .x_label = "model time of a reconstruction, ms",
       .y_label = "total wavefront error, nm",
       .marked = result.knee,
@@ -300,7 +300,7 @@ std::string knee_text(const TradeSearch& task, const TradeResult& result) {
   return fmt::format(
       "Knee (*), the best where all objectives weigh the same over their ranges on the front:\n{}"
       "  {}\n{}{}",
-      planes_table(traded.verified.design, task.telescope, task.seeing, &performance), figures,
+      planes_table(traded.verified.design, task.telescope, task.seeing(), &performance), figures,
       choices_text(task.space, traded.verified.design),
       captured_energy_warnings(traded.verified.design, performance));
 }
@@ -380,7 +380,7 @@ void run_trade(const Request& request) {
                         {"verification_interrupted", result.verification_interrupted}});
 
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing),
+  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing()),
              search_text(task, result, configuration));
   if (!result.front.empty()) {
     fmt::print("Front, on the fresh screens:\n{}{}\n", front_text(task, result),

@@ -5,8 +5,8 @@
 #include "studies/ranks/launched_processes.hpp"
 #include "studies/ranks/ranks.hpp"
 #include "studies/ranks/trial_queue.hpp"
-#include "studies/settings/setup.hpp"
 #include "studies/settings/text.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <algorithm>
 #include <array>

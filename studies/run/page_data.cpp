@@ -111,12 +111,8 @@ std::string without_comments(std::string_view dump) {
 }
 
 Json front_configurations(const Json& front, const Configuration& configuration) {
-  const Telescope telescope = telescope_of(configuration);
-  const DesignSpace space =
-      search_space_of(configuration, telescope,
-                      simulated_design(design_of(configuration), telescope,
-                                       simulation_options_of(configuration, "search.precision"),
-                                       truth_samples(configuration)));
+  const Setup setup(configuration);
+  const DesignSpace space = search_space_of(configuration, setup.telescope, setup.simulated());
   Json texts = Json::array();
   for (const Json& design : front) {
     Configuration own = configuration;

@@ -7,7 +7,6 @@
 #include "studies/run/progress.hpp"
 #include "studies/run/stopwatch.hpp"
 #include "studies/search/search_log.hpp"
-#include "studies/settings/setup.hpp"
 #include "studies/settings/text.hpp"
 
 #include <algorithm>
@@ -45,15 +44,25 @@ SearchOptions search_options_of(const Configuration& configuration,
   return options;
 }
 
-DesignTrial cheap_trial_of(const Configuration& configuration, bool pixels_vary) {
-  Configuration cheap = configuration;
-  for (const auto& [key, value] :
-       {std::pair("screens.count", configuration.value_text("search.cheap_screens")),
-        std::pair("search.precision", std::string("single"))}) {
-    cheap.set(key, value, "by the cheap search");
+/// With each value that a space's discrete variables have, and both ends of the others, one at a
+/// time.
+std::vector<SensorDesign> outstanding_designs(const DesignSpace& space) {
+  std::vector<SensorDesign> designs;
+  const std::vector<SubSpace> sub_spaces = space.sub_spaces();
+  for (std::size_t s = 0; s < sub_spaces.size(); ++s) {
+    const std::vector<Variable>& variables = sub_spaces[s].variables;
+    const SearchPoint point = lowest_point(sub_spaces[s], static_cast<int>(s));
+    designs.push_back(space.design(point));
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      if (space.name(point.sub_space, i) == "order") continue;  // all are equally valid
+      SearchPoint moved = point;
+      for (const double value : variables[i].outstanding_values()) {
+        moved.x[Eigen::Index(i)] = value;
+        designs.push_back(space.design(moved));
+      }
+    }
   }
-  std::vector<std::string> ignored_notes;
-  return trial_of(cheap, "search.precision", ignored_notes, pixels_vary);
+  return designs;
 }
 
 }  // namespace
@@ -68,75 +77,53 @@ void require_variables(const std::vector<SubSpace>& sub_spaces) {
 }
 
 void require_valid_designs(const DesignSpace& space, const DesignTrial& trial) {
-  const std::vector<SubSpace> sub_spaces = space.sub_spaces();
-  for (std::size_t s = 0; s < sub_spaces.size(); ++s) {
-    const std::vector<Variable>& variables = sub_spaces[s].variables;
-    const SearchPoint point = lowest_point(sub_spaces[s], static_cast<int>(s));
-    trial.checked(space.design(point));
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      SearchPoint moved = point;
-      double& x = moved.x[Eigen::Index(i)];
-      if (space.name(point.sub_space, i) == "order") continue;  // all are equally valid
-      for (const double value : variables[i].outstanding_values()) {
-        x = value;
-        trial.checked(space.design(moved));
-      }
-    }
-  }
+  for (const SensorDesign& design : outstanding_designs(space)) trial.checked(design);
 }
 
-void require_verifiable_designs(const Configuration& configuration, const DesignSpace& space,
-                                const DesignTrial& verification,
-                                const std::vector<SensorDesign>& others) {
-  try {
-    for (const SensorDesign& other : others) verification.checked(other);
-    require_valid_designs(space, verification);
-  } catch (const InputError& error) {
-    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
-                     fmt::format("the finer truth does not suit the design: {}", error.what()));
-  }
+void require_verifiable_designs(const DesignSpace& space, const DesignTrial& verification,
+                                const FreshScreens& fresh) {
+  require_verifiable(verification, outstanding_designs(space), fresh);
 }
 
 DesignSearch::DesignSearch(const Configuration& configuration)
-    : telescope(telescope_of(configuration)),
-      seeing(seeing_of(configuration, telescope)),
-      space(
-          search_space_of(configuration, telescope,
-                          simulated_design(design_of(configuration), telescope,
-                                           simulation_options_of(configuration, "search.precision"),
-                                           truth_samples(configuration)))),
+    : TrialSetup(configuration),
+      space(search_space_of(configuration, telescope, simulated())),
       options(search_options_of(configuration, space.sub_spaces())),
-      trial(trial_of(configuration, "search.precision", notes, space.varies("pupil_pixels"))),
-      verification(verification_trial_of(configuration, space.varies("pupil_pixels"))),
-      scan(fresh_trial_of(configuration, "search.precision", space.varies("pupil_pixels"))),
+      trial(make_trial(space.varies("pupil_pixels"))),
+      verification(make_verification(space.varies("pupil_pixels"))),
+      scan(make_scan(space.varies("pupil_pixels"))),
       baseline(trial.checked(baseline_of(configuration))),
       candidates_(configuration.integer("verify.candidates")) {
   require_valid_designs(space, trial);
-  require_verifiable_designs(configuration, space, verification, {baseline});
-  if (!configuration.text("screens.file").empty()) {
+  require_verifiable(verification, {baseline}, fresh);
+  require_verifiable_designs(space, verification, fresh);
+  if (!screen_source.file.empty()) {
     notes.emplace_back("the verification is on simulated screens of the configured seeing");
   }
   // The user's own designs are tried first.
-  for (const SensorDesign& known : {design_of(configuration), baseline}) {
+  for (const SensorDesign& known : {design, baseline}) {
     if (const auto point = space.point_of(known)) options.starts.push_back(*point);
   }
-  if (configuration.integer("search.cheap_budget") == 0) return;
-  SensorDesign cheap = simulated_design(design_of(configuration), telescope,
-                                        simulation_options_of(configuration, "search.precision"),
-                                        truth_samples(configuration));
-  cheap.reconstruction.window = rounded_window(
-      std::max(configuration.number("search.cheap_window") * cheap.reconstruction.window,
-               cheap.detector.window),
-      cheap.pupil_samples());
+  if (configuration.integer("search.cheap_budget") > 0) add_cheap_stage(configuration);
+}
+
+void DesignSearch::add_cheap_stage(const Configuration& configuration) {
+  const double share = configuration.number("search.cheap_window");
+  SensorDesign base = simulated();
+  base.reconstruction.window = rounded_window(
+      std::max(share * base.reconstruction.window, base.detector.window), base.pupil_samples());
   SearchOptions cheap_options = options;
   cheap_options.evaluation.budget = configuration.integer("search.cheap_budget");
   cheap_options.evaluation.target.reset();  // it is one of the search proper
-  cheap_.emplace(CheapStage{cheap_trial_of(configuration, space.varies("pupil_pixels")),
-                            search_space_of(configuration, telescope, cheap), cheap_options});
+  TrialSetup setup(*this);
+  setup.screen_source.count = configuration.integer("search.cheap_screens");
+  setup.search_precision = Precision::single_precision;
+  cheap_.emplace(CheapStage{setup.make_trial(space.varies("pupil_pixels")),
+                            search_space_of(configuration, telescope, base), cheap_options});
   try {
     require_valid_designs(cheap_->space, cheap_->trial);
   } catch (const InputError& error) {
-    throw InputError("search.cheap_window", configuration.number("search.cheap_window"),
+    throw InputError("search.cheap_window", share,
                      fmt::format("does not suit the design: {}", error.what()));
   }
 }
@@ -266,7 +253,7 @@ SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpa
                                         const DesignTrial& stage_trial, SearchOptions stage_options,
                                         RunRecord& record, std::string then, const Progress* whole,
                                         DesignSearchResult& result) const {
-  SearchLog log(name, stage_space, telescope, seeing.fried_parameter, stage_options.evaluation,
+  SearchLog log(name, stage_space, telescope, seeing().fried_parameter, stage_options.evaluation,
                 record.archive(), std::move(then), whole);
   DesignProblem problem(stage_space, stage_trial, {}, log.interruptible());
   std::stop_source stop;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "model/seeing.hpp"
-#include "model/telescope.hpp"
 #include "objectives/design_comparison.hpp"
 #include "objectives/design_space.hpp"
 #include "objectives/design_trial.hpp"
@@ -10,7 +8,7 @@
 #include "results/pictures/search_pictures.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/search/verified_ranking.hpp"
-#include "studies/settings/configuration.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <memory>
 #include <optional>
@@ -27,11 +25,10 @@ void require_variables(const std::vector<SubSpace>& sub_spaces);
 /// @throws InputError where the trial cannot have such a design
 void require_valid_designs(const DesignSpace& space, const DesignTrial& trial);
 
-/// The same with the trial of the section verify, and for some more designs.
+/// The same with the trial of the section verify.
 /// @throws InputError naming verify.truth_factor
-void require_verifiable_designs(const Configuration& configuration, const DesignSpace& space,
-                                const DesignTrial& verification,
-                                const std::vector<SensorDesign>& others = {});
+void require_verifiable_designs(const DesignSpace& space, const DesignTrial& verification,
+                                const FreshScreens& fresh);
 
 /// What a search found, and what it took.
 struct DesignSearchResult {
@@ -56,8 +53,9 @@ struct DesignSearchResult {
   const TriedDesign& best() const { return ranking.front().verified; }
 };
 
-/// A search of the sections search, baseline and verify, checked as a whole when it is made.
-class DesignSearch {
+/// A Setup with the search of the sections search, baseline and verify, checked as a whole when it
+/// is made.
+class DesignSearch : public TrialSetup {
  public:
   /// @throws InputError where values do not go together
   explicit DesignSearch(const Configuration& configuration);
@@ -73,15 +71,12 @@ class DesignSearch {
   /// @param whole  see Progress
   DesignSearchResult run(RunRecord& record, const Progress* whole = nullptr) const;
 
-  const Telescope telescope;       ///< that designs are for
-  const Seeing seeing;             ///< the first, where there are several
-  const DesignSpace space;         ///< that the search has designs of
-  SearchOptions options;           ///< of the search proper
-  std::vector<std::string> notes;  ///< for the user
-  DesignTrial trial;               ///< of the search
-  DesignTrial verification;        ///< on fresh screens
-  DesignTrial scan;                ///< for the ranges
-  const SensorDesign baseline;     ///< that the best is compared with
+  const DesignSpace space;      ///< that the search has designs of
+  SearchOptions options;        ///< of the search proper
+  DesignTrial trial;            ///< of the search
+  DesignTrial verification;     ///< on fresh screens
+  DesignTrial scan;             ///< for the ranges
+  const SensorDesign baseline;  ///< that the best is compared with
 
  private:
   struct CheapStage {
@@ -94,6 +89,7 @@ class DesignSearch {
                             const DesignTrial& stage_trial, SearchOptions stage_options,
                             RunRecord& record, std::string then, const Progress* whole,
                             DesignSearchResult& result) const;
+  void add_cheap_stage(const Configuration& configuration);
   void verify(RunRecord& record, const Progress* whole, DesignSearchResult& result) const;
   void scan_ranges(const Progress* whole, DesignSearchResult& result) const;
 

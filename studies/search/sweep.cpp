@@ -9,7 +9,6 @@
 #include "studies/run/interrupt.hpp"
 #include "studies/run/progress.hpp"
 #include "studies/run/stopwatch.hpp"
-#include "studies/settings/setup.hpp"
 #include "studies/settings/sweep_grid.hpp"
 
 #include <algorithm>
@@ -45,32 +44,17 @@ std::vector<DesignMetric> metrics_of(const Operation& operation) {
   return metrics;
 }
 
-/// Whether the grid's designs differ in their pixels across the pupil.
-bool pixels_vary(const Configuration& configuration) {
-  const auto pixels = configuration.axis("sweep.pupil_pixels");
-  return pixels && pixels->size() > 1;
-}
-
 }  // namespace
 
 SweepTask::SweepTask(const Configuration& configuration)
-    : telescope(telescope_of(configuration)),
-      seeing(seeing_of(configuration, telescope)),
-      grid(sweep_grid_of(configuration, telescope,
-                         simulated_design(design_of(configuration), telescope,
-                                          simulation_options_of(configuration, "search.precision"),
-                                          truth_samples(configuration)))),
-      trial(trial_of(configuration, "search.precision", notes, pixels_vary(configuration))),
-      verification(verification_trial_of(configuration, pixels_vary(configuration))),
+    : TrialSetup(configuration),
+      grid(sweep_grid_of(configuration, telescope, simulated())),
+      trial(make_trial(grid.space().varies("pupil_pixels"))),
+      verification(make_verification(grid.space().varies("pupil_pixels"))),
       metrics(metrics_of(trial.cost().operation)),
       candidates(static_cast<std::size_t>(configuration.integer("verify.candidates"))) {
-  try {
-    verification.checked(design_of(configuration));
-  } catch (const InputError& error) {
-    throw InputError("verify.truth_factor", configuration.integer("verify.truth_factor"),
-                     fmt::format("the finer truth does not suit the design: {}", error.what()));
-  }
-  if (!configuration.text("screens.file").empty()) {
+  require_verifiable(verification, {design}, fresh);
+  if (!screen_source.file.empty()) {
     notes.emplace_back("the verification is on simulated screens of the configured seeing");
   }
 }
@@ -91,7 +75,7 @@ std::optional<Tried> tried_design(const GridDesign& design, const SweepTask& tas
   ArchivedEvaluation& evaluation = result.evaluation;
   evaluation = {
       .stage = "sweep",
-      .design = to_json(design.design, task.telescope, task.seeing.fried_parameter).dump(),
+      .design = to_json(design.design, task.telescope, task.seeing().fried_parameter).dump(),
       .cost = std::numeric_limits<double>::quiet_NaN(),
       .failure = {},
       .seconds = 0.0,

@@ -1,14 +1,13 @@
 #pragma once
 
-#include "model/seeing.hpp"
 #include "model/statistics.hpp"
-#include "model/telescope.hpp"
 #include "objectives/design_grid.hpp"
 #include "objectives/design_metric.hpp"
 #include "objectives/design_trial.hpp"
 #include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/search/verified_ranking.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -18,13 +17,10 @@
 namespace nlcwfs {
 
 /// What the configuration asks for, checked as a whole before anything is written.
-struct SweepTask {
+struct SweepTask : TrialSetup {
   explicit SweepTask(const Configuration& configuration);
 
-  Telescope telescope;
-  Seeing seeing;
   DesignGrid grid;
-  std::vector<std::string> notes;
   DesignTrial trial;
   DesignTrial verification;
   std::vector<DesignMetric> metrics;  ///< every one that the configuration says enough for

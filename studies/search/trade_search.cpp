@@ -7,7 +7,6 @@
 #include "studies/run/stopwatch.hpp"
 #include "studies/search/design_search.hpp"
 #include "studies/search/search_log.hpp"
-#include "studies/settings/setup.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -162,29 +161,24 @@ std::size_t TradeResult::standing_count() const {
 }
 
 TradeSearch::TradeSearch(const Configuration& configuration)
-    : telescope(telescope_of(configuration)),
-      seeing(seeing_of(configuration, telescope)),
-      space(
-          search_space_of(configuration, telescope,
-                          simulated_design(design_of(configuration), telescope,
-                                           simulation_options_of(configuration, "search.precision"),
-                                           truth_samples(configuration)))),
+    : TrialSetup(configuration),
+      space(search_space_of(configuration, telescope, simulated())),
       objectives(trade_objectives_of(configuration)),
       options(pareto_options_of(configuration)),
-      trial(trial_of(configuration, "search.precision", notes, space.varies("pupil_pixels"))),
-      verification(verification_trial_of(configuration, space.varies("pupil_pixels"))),
+      trial(make_trial(space.varies("pupil_pixels"))),
+      verification(make_verification(space.varies("pupil_pixels"))),
       most_verified_(static_cast<std::size_t>(configuration.integer("trade.verified"))) {
   require_variables(space.sub_spaces());
   require_valid_designs(space, trial);
-  require_verifiable_designs(configuration, space, verification);
+  require_verifiable_designs(space, verification, fresh);
   const Operation& operation = trial.cost().operation;
   for (const DesignMetric& objective : objectives) objective.validate(operation);
-  const SensorDesign configured = trial.checked(design_of(configuration));
+  const SensorDesign configured = trial.checked(design);
   reference_ = reference_of(configuration, objectives, space, operation);
-  if (!configuration.text("screens.file").empty()) {
+  if (!screen_source.file.empty()) {
     notes.emplace_back("the verification is on simulated screens of the configured seeing");
   }
-  if (configuration.choice("simulation.truth") == "matched") {
+  if (TrialSetup::options.truth == TruthModel::matched) {
     notes.emplace_back(
         "with simulation.truth = matched all designs share one grid: pupil_pixels and "
         "reconstruction_oversampling do not vary");
@@ -203,7 +197,7 @@ TradeResult TradeSearch::run(RunRecord& record) const {
   const InterruptWatch watch;
   const Stopwatch stopwatch;
   ParetoOptions watched = options;
-  SearchLog log("search", space, telescope, seeing.fried_parameter, watched.evaluation,
+  SearchLog log("search", space, telescope, seeing().fried_parameter, watched.evaluation,
                 record.archive(), "then the verification", nullptr, objectives);
   std::stop_source stop;
   watched.evaluation.stop = stop.get_token();
@@ -238,9 +232,9 @@ void TradeSearch::verify_front(TradeResult& result, RunRecord& record) const {
   const std::vector<EvaluatedDesign>& front = result.search.front;
   std::vector<std::string> groups;
   for (const EvaluatedDesign& found : front) {
-    const SensorDesign design = space.design(found.point);
+    const SensorDesign of_front = space.design(found.point);
     groups.push_back(
-        fmt::format("{} planes {} pixels", design.planes.size(), design.detector.pupil_pixels));
+        fmt::format("{} planes {} pixels", of_front.planes.size(), of_front.detector.pupil_pixels));
   }
   const std::vector<std::size_t> chosen = evenly_chosen(groups, most_verified_);
   // One that ended the search does not end this too.
@@ -308,16 +302,16 @@ void TradeSearch::judge_front(TradeResult& result) const {
 
   for (std::size_t i = 1; i < objectives.size(); ++i) {
     std::vector<std::size_t> by_bound = standing;
-    std::ranges::stable_sort(by_bound, {}, [&](std::size_t design) {
-      const std::vector<double>& figure = result.front[design].evaluated.objectives;
+    std::ranges::stable_sort(by_bound, {}, [&](std::size_t place) {
+      const std::vector<double>& figure = result.front[place].evaluated.objectives;
       return std::pair(figure[i], figure[0]);
     });
     double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t design : by_bound) {
-      const std::vector<double>& figure = result.front[design].evaluated.objectives;
+    for (const std::size_t place : by_bound) {
+      const std::vector<double>& figure = result.front[place].evaluated.objectives;
       if (figure[0] >= least) continue;
       least = figure[0];
-      result.bests[i - 1].push_back({result.front[design].objectives[i].mean, design});
+      result.bests[i - 1].push_back({result.front[place].objectives[i].mean, place});
     }
   }
 }

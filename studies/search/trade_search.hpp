@@ -9,6 +9,7 @@
 #include "optimizer/pareto_search.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/settings/configuration.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -65,8 +66,9 @@ struct TradeResult {
   std::size_t standing_count() const;
 };
 
-/// A search of the sections trade, search and verify, checked as a whole when it is made.
-class TradeSearch {
+/// A Setup with the search of the sections trade, search and verify, checked as a whole when it is
+/// made.
+class TradeSearch : public TrialSetup {
  public:
   /// @param configuration  with set_trade_defaults
   /// @throws InputError where values do not go together
@@ -77,12 +79,9 @@ class TradeSearch {
   /// with the designs so far, or the first alone on the screens that are done.
   TradeResult run(RunRecord& record) const;
 
-  const Telescope telescope;                   ///< that designs are for
-  const Seeing seeing;                         ///< the first, where there are several
   const DesignSpace space;                     ///< that the search has designs of
   const std::vector<DesignMetric> objectives;  ///< what is minimised at once
   ParetoOptions options;                       ///< of the search
-  std::vector<std::string> notes;              ///< for the user
   DesignTrial trial;                           ///< of the search
   DesignTrial verification;                    ///< on fresh screens
 

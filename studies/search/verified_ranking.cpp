@@ -1,5 +1,6 @@
 #include "studies/search/verified_ranking.hpp"
 
+#include "model/input_error.hpp"
 #include "objectives/design_space.hpp"
 #include "results/tables/design_summary.hpp"
 #include "results/tables/trial_summary.hpp"
@@ -53,6 +54,16 @@ Progress verification_progress(const DesignTrial& verification, std::size_t desi
   const std::size_t conditions = verification.conditions().size();
   return {"verification", double(designs * conditions) * verification.screen_count(),
           "fresh screens", std::move(then), whole};
+}
+
+void require_verifiable(const DesignTrial& verification, const std::vector<SensorDesign>& designs,
+                        const FreshScreens& fresh) {
+  try {
+    for (const SensorDesign& design : designs) verification.checked(design);
+  } catch (const InputError& error) {
+    throw InputError("verify.truth_factor", fresh.truth_factor,
+                     fmt::format("the finer truth does not suit the design: {}", error.what()));
+  }
 }
 
 TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verification,

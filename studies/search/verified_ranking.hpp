@@ -4,6 +4,7 @@
 #include "objectives/design_trial.hpp"
 #include "studies/run/progress.hpp"
 #include "studies/run/run_record.hpp"
+#include "studies/settings/trials.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -21,6 +22,11 @@ namespace nlcwfs {
 /// @param then, whole  see Progress
 Progress verification_progress(const DesignTrial& verification, std::size_t designs,
                                std::string then = {}, const Progress* whole = nullptr);
+
+/// Checks that designs can be verified.
+/// @throws InputError naming verify.truth_factor
+void require_verifiable(const DesignTrial& verification, const std::vector<SensorDesign>& designs,
+                        const FreshScreens& fresh);
 
 /// Thrown where a design fails on the fresh screens; says how to try it again.
 class VerificationFailed : public std::runtime_error {

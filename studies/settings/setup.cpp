@@ -1,20 +1,10 @@
 #include "studies/settings/setup.hpp"
 
-#include "model/grid_width.hpp"
-#include "model/image_gaps.hpp"
 #include "model/input_error.hpp"
-#include "model/pupil.hpp"
-#include "model/screen_resampling.hpp"
-#include "model/turbulence_screen.hpp"
-#include "results/fits/fits_cube.hpp"
 #include "studies/settings/metric_text.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <memory>
-#include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -59,72 +49,6 @@ bool is_matched(const Configuration& configuration) {
   return configuration.choice("simulation.truth") == "matched";
 }
 
-std::vector<PhaseScreen> simulated_screens(const Configuration& configuration,
-                                           const Telescope& telescope, const Seeing& seeing,
-                                           int samples, int count, std::string_view seed_key,
-                                           const std::function<bool(int)>& watch = {}) {
-  return generate_screens(
-      TurbulenceScreenGenerator(seeing, samples, telescope.diameter, configuration.seed(seed_key)),
-      count, watch);
-}
-
-/// By default four times the search's, so that the verification adds little noise of its own.
-int verification_screens(const Configuration& configuration) {
-  return configuration.is_set("verify.screens")
-             ? configuration.integer("verify.screens")
-             : std::max(64, 4 * configuration.integer("screens.count"));
-}
-
-std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
-                                           int samples, std::vector<std::string>& notes) {
-  FitsCube cube = read_fits_cube(file, "screens.file", FitsGaps::allowed);
-  double radians_per_unit = 1.0;
-  if (cube.unit == "m") {
-    radians_per_unit = 2.0 * std::numbers::pi / telescope.wavelength;
-  } else if (!cube.unit.empty() && cube.unit != "rad") {
-    throw InputError("screens.file", file,
-                     fmt::format("BUNIT must be 'rad' or 'm', but is '{}'", cube.unit));
-  }
-  const auto size = static_cast<int>(cube.slices.front().rows());
-  if (size < 2) throw InputError("screens.file", file, "at least 2 x 2 samples");
-  require_memory("screens.file", file, double(cube.slices.size()), samples);
-  if (size != samples) {
-    notes.push_back(fmt::format("{}: {} x {} samples were resampled to the truth's {} x {}", file,
-                                size, size, samples, samples));
-  }
-  const PupilMask pupil = pupil_mask(size, telescope.central_obscuration);
-  for (Image<double>& screen : cube.slices) {
-    if (!(screen.isFinite() || (screen.isNaN() && !pupil)).all()) {
-      throw InputError("screens.file", file,
-                       "has values that are not finite; only outside the pupil may there be none");
-    }
-    // Continued beyond the pupil, so that what is resampled at its edge comes from within.
-    screen = with_gaps_filled(screen) * radians_per_unit;
-    if (size != samples) screen = resampled_screen(screen, samples);
-  }
-  return std::move(cube.slices);
-}
-
-/// The wavefronts of the section screens in a seeing.
-std::vector<PhaseScreen> screens_in(const Configuration& configuration, const Telescope& telescope,
-                                    const Seeing& seeing, std::vector<std::string>& notes,
-                                    int most = std::numeric_limits<int>::max(),
-                                    const std::function<bool(int)>& watch = {}) {
-  const int samples = truth_samples(configuration);
-  const std::size_t seeings = seeings_of(configuration, telescope).size();
-  if (const std::string& file = configuration.text("screens.file"); !file.empty()) {
-    if (seeings > 1) {
-      throw InputError("screens.file", file,
-                       "its screens have one seeing; give one value of the section seeing");
-    }
-    return screens_from_file(file, telescope, samples, notes);
-  }
-  const int count = configuration.integer("screens.count");
-  require_memory("screens.count", std::to_string(count), double(seeings) * count, samples);
-  return simulated_screens(configuration, telescope, seeing, samples, std::min(count, most),
-                           "screens.seed", watch);
-}
-
 /// What replaces the design's light; nothing where there is one light alone.
 std::vector<std::optional<double>> lights_of(const Configuration& configuration) {
   const std::vector<double> photons = configuration.numbers("detector.photons");
@@ -141,41 +65,6 @@ std::vector<std::optional<double>> lights_of(const Configuration& configuration)
   }
   const std::vector<double>& lights = photons.size() > 1 ? photons : rates;
   return {lights.begin(), lights.end()};
-}
-
-/// "D/r0 = 4, 100000 photons"
-std::string condition_name(const Telescope& telescope, const Seeing& seeing,
-                           const Detector& detector) {
-  std::string name = fmt::format("D/r0 = {:.4g}", telescope.diameter / seeing.fried_parameter);
-  if (detector.photon_rate > 0.0) {
-    name += fmt::format(", {:g} photons/s", detector.photon_rate);
-  } else if (detector.photons > 0.0) {
-    name += fmt::format(", {:g} photons", detector.photons);
-  }
-  return name;
-}
-
-/// Each seeing, with each light.
-/// @param screens_in  makes the screens of a seeing
-template <class ScreensIn>
-std::vector<Condition> conditions_of(const Configuration& configuration, const Telescope& telescope,
-                                     const SimulationOptions& options,
-                                     const ScreensIn& screens_in) {
-  std::vector<Condition> conditions;
-  for (const Seeing& seeing : seeings_of(configuration, telescope)) {
-    const auto simulation =
-        std::make_shared<const Simulation>(telescope, screens_in(seeing), options);
-    for (const std::optional<double> light : lights_of(configuration)) {
-      Condition condition{.name = {},
-                          .simulation = simulation,
-                          .light = light,
-                          .fried_parameter = seeing.fried_parameter};
-      condition.name =
-          condition_name(telescope, seeing, condition.lit(design_of(configuration)).detector);
-      conditions.push_back(std::move(condition));
-    }
-  }
-  return conditions;
 }
 
 /// At D/r0 = 0.1 a wavefront has a fortieth of a wave RMS (Noll): below, a unit was forgotten.
@@ -213,30 +102,17 @@ void require_wind(const Configuration& configuration,
   }
 }
 
-/// See DesignTrial::spec: how the trial is made, and every value that is set.
-std::string spec_of(std::string_view kind, std::string_view precision_key,
-                    const Configuration& configuration) {
-  std::string spec = fmt::format("{} {}\n", kind, precision_key);
+/// A line for each key that is set.
+std::string values_of(const Configuration& configuration) {
+  std::string values;
   for (const ConfigurationKey& key : configuration_keys()) {
     const std::string& value = configuration.value_text(key.name);
-    if (!value.empty()) spec += fmt::format("{} {}\n", key.name, value);
+    if (!value.empty()) values += fmt::format("{} {}\n", key.name, value);
   }
-  return spec;
+  return values;
 }
 
 }  // namespace
-
-void require_memory(std::string_view key, const std::string& value, double count, int samples) {
-  const double bytes_per_screen = double(samples) * samples * sizeof(double);
-  if (count * bytes_per_screen <= max_image_memory) return;
-  throw InputError(
-      key, value,
-      fmt::format(
-          "{:.0f} screens of {} x {} samples take {:.3g} GiB of memory; at most {:.0f} of them "
-          "fit into the {:g} GiB allowed",
-          count, samples, samples, count * bytes_per_screen / std::exp2(30),
-          std::floor(max_image_memory / bytes_per_screen), max_image_memory / std::exp2(30)));
-}
 
 Telescope telescope_of(const Configuration& configuration) {
   const Telescope telescope{
@@ -286,17 +162,16 @@ void set_trade_defaults(Configuration& configuration) {
   // A matched truth shares one grid with detector and reconstruction.
   if (is_matched(configuration)) return;
   set("search.reconstruction_oversampling", "1,2");
-  const Telescope telescope = telescope_of(configuration);
-  const SensorDesign configured = design_of(configuration);
+  const Setup configured(configuration);
   std::vector<int> suitable;
   for (const int divisor : {4, 2, 1}) {
-    SensorDesign design = configured;
-    design.detector.pupil_pixels /= divisor;
-    if (design.detector.pupil_pixels * divisor != configured.detector.pupil_pixels) continue;
+    Setup setup = configured;
+    int& pixels = setup.design.detector.pupil_pixels;
+    pixels /= divisor;
+    if (pixels * divisor != configured.design.detector.pupil_pixels) continue;
     try {
-      simulated_design(design, telescope, simulation_options_of(configuration, "search.precision"),
-                       truth_samples(configuration));
-      suitable.push_back(design.detector.pupil_pixels);
+      (void)setup.simulated();
+      suitable.push_back(pixels);
     } catch (const InputError&) {
       // Its windows are no whole numbers of these pixels. Where the configured design itself does
       // not suit, that is said when it is simulated.
@@ -454,8 +329,7 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
   return cost;
 }
 
-DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
-                            SensorDesign base) {
+DesignSpaceOptions search_space_options_of(const Configuration& configuration, SensorDesign base) {
   DesignSpaceOptions options{
       .base = std::move(base),
       .layout = choice_of<Layout>(configuration, "search.layout",
@@ -481,7 +355,12 @@ DesignSpace search_space_of(const Configuration& configuration, const Telescope&
     throw InputError("search.exposure", configuration.value_text("search.exposure"),
                      "nothing without detector.photon_rate, such as --detector.photon_rate 1e8");
   }
-  return {telescope, std::move(options)};
+  return options;
+}
+
+DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
+                            SensorDesign base) {
+  return {telescope, search_space_options_of(configuration, std::move(base))};
 }
 
 void set_design(Configuration& configuration, const SensorDesign& design, const DesignSpace& space,
@@ -539,120 +418,35 @@ LightSource light_source_of(const Configuration& configuration) {
   return source;
 }
 
-SimulationOptions simulation_options_of(const Configuration& configuration,
-                                        std::string_view precision_key) {
+Precision precision_of(const Configuration& configuration, std::string_view key) {
+  return choice_of<Precision>(
+      configuration, key,
+      {{"double", Precision::double_precision}, {"single", Precision::single_precision}});
+}
+
+SimulationOptions simulation_options_of(const Configuration& configuration) {
   return {.truth = choice_of<TruthModel>(configuration, "simulation.truth",
                                          {{"extended", TruthModel::extended},
                                           {"matched", TruthModel::matched},
                                           {"periodic", TruthModel::periodic}}),
-          .precision = choice_of<Precision>(
-              configuration, precision_key,
-              {{"double", Precision::double_precision}, {"single", Precision::single_precision}}),
+          .precision = precision_of(configuration, "simulation.precision"),
           .noise_seed = configuration.seed("screens.seed"),
           .source = light_source_of(configuration),
           .time_limit = configuration.optional_time("simulation.time_limit")
                             .value_or(std::numeric_limits<double>::infinity())};
 }
 
-std::vector<PhaseScreen> screens_of(const Configuration& configuration,
-                                    std::vector<std::string>& notes, int most,
-                                    const std::function<bool(int)>& watch) {
-  const Telescope telescope = telescope_of(configuration);
-  return screens_in(configuration, telescope, seeing_of(configuration, telescope), notes, most,
-                    watch);
-}
+Setup::Setup(const Configuration& configuration)
+    : telescope(telescope_of(configuration)),
+      seeings(seeings_of(configuration, telescope)),
+      lights(lights_of(configuration)),
+      design(design_of(configuration)),
+      options(simulation_options_of(configuration)),
+      samples(truth_samples(configuration)),
+      values(values_of(configuration)) {}
 
-DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
-                     std::vector<std::string>& notes, bool pixels_vary) {
-  const Telescope telescope = telescope_of(configuration);
-  const SimulationOptions options = simulation_options_of(configuration, precision_key);
-  // Before the screens, which may take long.
-  DesignCost cost = cost_of(configuration, pixels_vary);
-  simulated_design(design_of(configuration), telescope, options, truth_samples(configuration));
-  DesignTrial trial(conditions_of(configuration, telescope, options,
-                                  [&](const Seeing& seeing) {
-                                    return screens_in(configuration, telescope, seeing, notes);
-                                  }),
-                    std::move(cost));
-  trial.spec = spec_of("search", precision_key, configuration);
-  return trial;
-}
-
-namespace {
-
-/// On screens of verify.seed.
-/// @param key  that asks for so many screens, for the error where they take too much memory
-DesignTrial trial_on_fresh_screens(const Configuration& configuration, SimulationOptions options,
-                                   int samples, std::string_view key, int count, bool pixels_vary) {
-  const Telescope telescope = telescope_of(configuration);
-  const auto seeings = double(seeings_of(configuration, telescope).size());
-  require_memory(key, std::to_string(count), seeings * count, samples);
-  options.noise_seed = configuration.seed("verify.seed");
-  DesignTrial trial(conditions_of(configuration, telescope, options,
-                                  [&](const Seeing& seeing) {
-                                    return simulated_screens(configuration, telescope, seeing,
-                                                             samples, count, "verify.seed");
-                                  }),
-                    cost_of(configuration, pixels_vary));
-  trial.keeps_failures = false;
-  return trial;
-}
-
-}  // namespace
-
-DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
-                           bool pixels_vary) {
-  constexpr int least_screens = 8;
-  DesignTrial trial = trial_on_fresh_screens(
-      configuration, simulation_options_of(configuration, precision_key),
-      truth_samples(configuration), "screens.count",
-      std::max(least_screens, configuration.integer("screens.count")), pixels_vary);
-  trial.spec = spec_of("fresh", precision_key, configuration);
-  return trial;
-}
-
-DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary) {
-  const std::uint64_t seed = configuration.seed("verify.seed");
-  const int factor = configuration.integer("verify.truth_factor");
-  if (seed == configuration.seed("screens.seed")) {
-    throw InputError("verify.seed", seed,
-                     "another seed than screens.seed, or the screens would not be fresh");
-  }
-  SimulationOptions options = simulation_options_of(configuration, "simulation.precision");
-  options.precision = Precision::double_precision;
-  if (factor > 1) options.truth = TruthModel::extended;
-  const double window = configuration.number(configuration.choice("simulation.truth") == "extended"
-                                                 ? "detector.window"
-                                                 : "reconstruction.window");
-  const double search_width = window * truth_samples(configuration);
-  if (factor * search_width > max_grid_width) {
-    throw InputError(
-        "verify.truth_factor", factor,
-        fmt::format("at most {:g}: the search's true field is {:g} samples wide, and "
-                    "at most {} are allowed",
-                    std::floor(max_grid_width / search_width), search_width, max_grid_width));
-  }
-  DesignTrial trial =
-      trial_on_fresh_screens(configuration, options, truth_samples(configuration) * factor,
-                             "verify.screens", verification_screens(configuration), pixels_vary);
-  trial.spec = spec_of("verification", "simulation.precision", configuration);
-  return trial;
-}
-
-DesignTrial trial_from_spec(const std::string& spec) {
-  std::istringstream lines(spec);
-  std::string kind;
-  std::string precision_key;
-  lines >> kind >> precision_key;
-  Configuration configuration;
-  std::string key;
-  for (std::string value; lines >> key && std::getline(lines >> std::ws, value);) {
-    configuration.set(key, value, "in a trial's specification");
-  }
-  std::vector<std::string> ignored_notes;
-  if (kind == "search") return trial_of(configuration, precision_key, ignored_notes);
-  if (kind == "fresh") return fresh_trial_of(configuration, precision_key);
-  return verification_trial_of(configuration);
+SensorDesign Setup::simulated() const {
+  return simulated_design(design, telescope, options, samples);
 }
 
 }  // namespace nlcwfs

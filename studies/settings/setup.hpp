@@ -8,11 +8,9 @@
 #include "objectives/design_cost.hpp"
 #include "objectives/design_metric.hpp"
 #include "objectives/design_space.hpp"
-#include "objectives/design_trial.hpp"
 #include "studies/settings/configuration.hpp"
 
-#include <functional>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +54,9 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary);
 
 /// What the section search lets vary.
 /// @param base  gives everything else
+DesignSpaceOptions search_space_options_of(const Configuration& configuration, SensorDesign base);
+
+/// The space of these.
 DesignSpace search_space_of(const Configuration& configuration, const Telescope& telescope,
                             SensorDesign base);
 
@@ -69,45 +70,32 @@ int truth_samples(const Configuration& configuration);
 /// The section source.
 LightSource light_source_of(const Configuration& configuration);
 
-/// @param precision_key  the key of the reconstruction's precision: simulation.precision, or
-///                       search.precision for a search
-SimulationOptions simulation_options_of(const Configuration& configuration,
-                                        std::string_view precision_key);
+/// The key simulation.precision or search.precision.
+Precision precision_of(const Configuration& configuration, std::string_view key);
 
-/// Refuses more screens than memory is allowed for, before they are made.
-/// @param key, value  what asks for so many
-/// @param samples     of a screen along each side
-void require_memory(std::string_view key, const std::string& value, double count, int samples);
+/// The section simulation.
+SimulationOptions simulation_options_of(const Configuration& configuration);
 
-/// The wavefronts of the section screens in the first seeing, simulated or from a file, at the
-/// truth's samples.
-/// @param notes  gets a line where screens had to be resampled
-/// @param most   no more than the first so many are simulated; a file's are read all the same
-/// @param watch  see generate_screens
-std::vector<PhaseScreen> screens_of(const Configuration& configuration,
-                                    std::vector<std::string>& notes,
-                                    int most = std::numeric_limits<int>::max(),
-                                    const std::function<bool(int)>& watch = {});
+/// What a configuration asks to be simulated, read once: where a command begins.
+struct Setup {
+  /// @throws InputError where values do not go together
+  explicit Setup(const Configuration& configuration);
 
-/// What designs are tried under: the simulations of the sections screens and simulation in each
-/// seeing, with each light; precision and notes as above.
-/// @param pixels_vary  see cost_of
-DesignTrial trial_of(const Configuration& configuration, std::string_view precision_key,
-                     std::vector<std::string>& notes, bool pixels_vary = false);
+  /// The first of them.
+  const Seeing& seeing() const { return seeings.front(); }
+  /// The design as it is simulated.
+  /// @throws InputError where it cannot be
+  SensorDesign simulated() const;
 
-/// The same on as many fresh screens, those of the verification, but on 8 at least: fewer cannot
-/// tell designs apart.
-DesignTrial fresh_trial_of(const Configuration& configuration, std::string_view precision_key,
-                           bool pixels_vary = false);
-
-/// The trial that results are verified in: verify.screens fresh screens of verify.seed, on a truth
-/// verify.truth_factor times as fine, in double precision. A matched truth that is refined no
-/// longer matches the reconstruction's grid, so it becomes an extended one.
-DesignTrial verification_trial_of(const Configuration& configuration, bool pixels_vary = false);
-
-/// The trial that one of these functions has made, from its DesignTrial::spec: the same
-/// performances, but with the costs of designs whose pixels do not vary.
-/// @throws InputError where this process cannot make it, such as without screens.file
-DesignTrial trial_from_spec(const std::string& spec);
+  Telescope telescope;
+  std::vector<Seeing> seeings;  ///< Fried parameters at the telescope's wavelength
+  /// What replaces the design's light, per condition; nothing where there is one light alone.
+  std::vector<std::optional<double>> lights;
+  SensorDesign design;             ///< as configured
+  SimulationOptions options;       ///< with simulation.precision
+  int samples;                     ///< of the true field across the pupil
+  std::string values;              ///< a line for each key that is set: "telescope.diameter 0.5m"
+  std::vector<std::string> notes;  ///< for the user, on what was made of it
+};
 
 }  // namespace nlcwfs

@@ -92,9 +92,9 @@ void check_design(const Configuration& configuration, const Telescope& telescope
   if (truth_samples(configuration) > 256 || configuration.integer("detector.pupil_pixels") > 256) {
     return;
   }
-  const SimulationOptions options = simulation_options_of(configuration, "simulation.precision");
-  const SensorDesign design =
-      simulated_design(design_of(configuration), telescope, options, truth_samples(configuration));
+  const Setup setup(configuration);
+  const SimulationOptions& options = setup.options;
+  const SensorDesign design = setup.simulated();
   for (std::size_t plane = 0; plane < design.planes.size(); ++plane) {
     options.source.lines(plane, design.planes.size(), telescope.wavelength);
   }
@@ -110,7 +110,8 @@ void check_settings(const Configuration& configuration) {
   is_accepted([&] { cost_of(configuration, false); });
   is_accepted([&] { cost_of(configuration, true); });
   is_accepted([&] { trade_objectives_of(configuration); });
-  is_accepted([&] { simulation_options_of(configuration, "search.precision"); });
+  is_accepted([&] { simulation_options_of(configuration); });
+  is_accepted([&] { precision_of(configuration, "search.precision"); });
   is_accepted([&] { check_design(configuration, telescope); });
   is_accepted([&] { read_space(configuration, telescope); });
   is_accepted([&] { read_grid(configuration, telescope); });

@@ -4,7 +4,7 @@
 
 #include "results/tables/csv_table.hpp"
 #include "studies/reproduction/plan.hpp"
-#include "studies/settings/setup.hpp"
+#include "studies/settings/trials.hpp"
 #include "tests/paths.hpp"
 
 #include <algorithm>
@@ -42,8 +42,10 @@ void expect_same(double today, double reference) {
 /// @param precision  its key: sweeps have that of a search
 void expect_same_means(const Configuration& configuration, const CsvRow& row,
                        const std::vector<std::string>& metrics, std::string_view precision) {
-  std::vector<std::string> notes;
-  const DesignTrial trial = trial_of(configuration, precision, notes);
+  Setup setup(configuration);
+  const DesignTrial trial =
+      trial_of(setup, ScreenSource(configuration), precision_of(configuration, precision),
+               cost_of(configuration, false));
   const TriedDesign tried = trial.run(design_of(configuration));
   for (const std::string& metric : metrics) {
     SCOPED_TRACE(metric);
@@ -115,8 +117,9 @@ TEST(ReferenceRun, SamplingIsWhatTheCodeGives) {
 TEST(ReferenceRun, BroadbandIsWhatTheCodeGives) {
   Configuration configuration = configuration_of("figure-8/paper-medium");
   configuration.set("screens.count", "1", "here");
-  std::vector<std::string> notes;
-  const DesignTrial trial = trial_of(configuration, "simulation.precision", notes);
+  Setup setup(configuration);
+  const DesignTrial trial = trial_of(setup, ScreenSource(configuration), setup.options.precision,
+                                     cost_of(configuration, false));
   const Performance first = trial.conditions().front().simulation->follow(design_of(configuration));
   const std::vector<CsvRow> rows = reference_rows("figure-7-paper.csv");
   const std::vector<double>& today = first.screens.front().residual_after_loops;

@@ -5,7 +5,7 @@
 #include "results/archive/archive.hpp"
 #include "results/archive/folder_lock.hpp"
 #include "results/tables/design_summary.hpp"
-#include "studies/settings/setup.hpp"
+#include "studies/settings/trials.hpp"
 #include "tests/sqlite_query.hpp"
 #include "tests/studies/program.hpp"
 
@@ -40,8 +40,9 @@ class RunFailures : public Program {
   }
 
   /// From now on the archive knows that the design failed in a trial, and the run has not ended.
-  static void let_fail(const Json& design,
-                       const DesignTrial& trial = verification_trial_of(configuration())) {
+  static void let_fail(
+      const Json& design,
+      const DesignTrial& trial = TrialSetup(configuration()).make_verification(false)) {
     Archive::reopened("run/archive.sqlite")
         .keep(trial.identity(), exact_text(design_from_json(design)),
               {.performances = {}, .failure = "the light went out"});
@@ -133,7 +134,7 @@ TEST_F(RunFailures, WithoutADesignThatIsVerifiedARunSaysHowToKeepWhatItHas) {
 
 TEST_F(RunFailures, ASearchWhoseScanFailsSaysHowToGoOn) {
   done("optimize", "run");
-  let_fail(summary()["best"], fresh_trial_of(configuration(), "search.precision"));
+  let_fail(summary()["best"], TrialSetup(configuration()).make_scan(false));
   const ProgramRun resumed = run({"optimize", "--resume", "run"});
   EXPECT_EQ(resumed.exit_code, 3) << resumed.errors;
   EXPECT_THAT(resumed.output,

@@ -1,7 +1,7 @@
 #include "studies/ranks/trial_queue.hpp"
 
 #include "model/input_error.hpp"
-#include "studies/settings/setup.hpp"
+#include "studies/settings/trials.hpp"
 #include "tests/message_of.hpp"
 
 #include <algorithm>
@@ -28,10 +28,7 @@ Configuration tiny() {
   return configuration;
 }
 
-DesignTrial tiny_trial() {
-  std::vector<std::string> notes;
-  return trial_of(tiny(), "search.precision", notes);
-}
+DesignTrial tiny_trial() { return TrialSetup(tiny()).make_trial(false); }
 
 /// Whether all but the clocks is equal.
 void expect_same(const TriedDesign& one, const TriedDesign& other) {
@@ -160,11 +157,11 @@ TEST(TrialQueue, ThrowsWhatTheSimulationDoes) {
 
 TEST(TrialSpec, MakesTheSameTrial) {
   const Configuration configuration = tiny();
-  std::vector<std::string> notes;
+  TrialSetup setup(configuration);
   for (const DesignTrial& trial :
-       {trial_of(configuration, "search.precision", notes, true),
-        trial_of(configuration, "simulation.precision", notes),
-        fresh_trial_of(configuration, "search.precision"), verification_trial_of(configuration)}) {
+       {setup.make_trial(true),
+        trial_of(setup, setup.screen_source, setup.options.precision, setup.cost(false)),
+        setup.make_scan(false), setup.make_verification(false)}) {
     const DesignTrial again = trial_from_spec(trial.spec);
     EXPECT_EQ(again.identity(), trial.identity()) << trial.spec;
     EXPECT_EQ(again.spec, trial.spec);

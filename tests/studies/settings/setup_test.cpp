@@ -1,5 +1,4 @@
-#include "studies/settings/setup.hpp"
-
+#include "studies/settings/trials.hpp"
 #include "tests/message_of.hpp"
 
 #include <cmath>
@@ -181,8 +180,9 @@ DesignTrial quick_trial(std::initializer_list<std::pair<const char*, const char*
                                    {"screens.count", "3"}}) {
     configuration.set(key, value, "by the test");
   }
-  std::vector<std::string> notes;
-  return trial_of(configuration, "simulation.precision", notes);
+  Setup setup(configuration);
+  return trial_of(setup, ScreenSource(configuration), setup.options.precision,
+                  cost_of(configuration, false));
 }
 
 TEST(Settings, TheSourceIsThatOfItsSection) {
@@ -282,7 +282,7 @@ TEST(Settings, TheAggregateIsThatOfTheObjective) {
 
 TEST(Settings, TheVerificationsScreensMustBeFresh) {
   EXPECT_THAT(message_of([] {
-                verification_trial_of(with({{"verify.seed", "7"}, {"screens.seed", "7"}}));
+                TrialSetup(with({{"verify.seed", "7"}, {"screens.seed", "7"}}));
               }),
               HasSubstr("verify.seed = 7: another seed than screens.seed"));
 }
@@ -290,19 +290,20 @@ TEST(Settings, TheVerificationsScreensMustBeFresh) {
 TEST(Settings, FreshScreensFitIntoTheMemoryThatIsAllowed) {
   // One screen in each seeing has room, but not as many as tell designs apart.
   EXPECT_THAT(message_of([] {
-                fresh_trial_of(with({{"screens.count", "1"},
-                                     {"simulation.pupil_samples", "8192"},
-                                     {"seeing.d_over_r0", "1,2,3,4,5"}}),
-                               "search.precision");
+                TrialSetup(with({{"screens.count", "1"},
+                                 {"simulation.pupil_samples", "8192"},
+                                 {"seeing.d_over_r0", "1,2,3,4,5"}}))
+                    .make_scan(false);
               }),
               AllOf(HasSubstr("screens.count = 8"), HasSubstr("take 20 GiB of memory")));
 }
 
 TEST(Settings, TheVerificationHasFourTimesTheSearchsScreensUnlessSaidOtherwise) {
   const auto screens = [](const char* count) {
-    return verification_trial_of(with({{"screens.count", count},
-                                       {"detector.pupil_pixels", "16"},
-                                       {"simulation.pupil_samples", "16"}}))
+    return TrialSetup(with({{"screens.count", count},
+                            {"detector.pupil_pixels", "16"},
+                            {"simulation.pupil_samples", "16"}}))
+        .make_verification(false)
         .screen_count();
   };
   EXPECT_EQ(screens("2"), 64);
@@ -322,11 +323,11 @@ TEST(Settings, TheVerificationsTruthIsFinerAndNoLongerMatched) {
                                             {"detector.pupil_pixels", "16"},
                                             {"verify.screens", "2"},
                                             {"verify.truth_factor", "2"}});
-  const DesignTrial verification = verification_trial_of(configuration);
+  const DesignTrial verification = TrialSetup(configuration).make_verification(false);
   EXPECT_EQ(verification.conditions().front().simulation->truth_samples(), 32);
   EXPECT_EQ(verification.screen_count(), 2);
   EXPECT_FALSE(verification.keeps_failures);
-  EXPECT_FALSE(fresh_trial_of(configuration, "search.precision").keeps_failures);
+  EXPECT_FALSE(TrialSetup(configuration).make_scan(false).keeps_failures);
   // A matched simulation would widen the detector to the reconstruction's window.
   SensorDesign design = design_of(configuration);
   EXPECT_EQ(verification.checked(design).detector.window, design.detector.window);
