@@ -11,7 +11,7 @@ namespace nlcwfs {
 
 /// A page that shows a run's results, as one HTML file: style, scripts and the library that draws
 /// the charts are in it, and it asks nothing of any network. Whatever texts the data hold, they
-/// stay texts. The scripts of results/report say which members of the data they draw.
+/// stay texts. The scripts of results/page say which members of the data they draw.
 /// @param title  for the browser's tab
 std::string page_of(std::string_view title, const nlohmann::ordered_json& data);
 

@@ -5,9 +5,9 @@
 
 namespace nlcwfs {
 
-/// A file of the folder results/report, as the program was built with it.
+/// A file of the folder results/page, as the program was built with it.
 struct PageFile {
-  std::string_view name;  ///< below results/report: "page.html", "plotly/LICENSE"
+  std::string_view name;  ///< below results/page: "page.html", "plotly/LICENSE"
   std::string_view text;  ///< the whole file
 };
 

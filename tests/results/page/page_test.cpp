@@ -32,7 +32,7 @@ Json data_in(const std::string& page) {
   return Json::parse(page.substr(begin, page.find("</script", begin) - begin));
 }
 
-TEST(ReportPage, HoldsEverythingThatItNeeds) {
+TEST(Page, HoldsEverythingThatItNeeds) {
   const std::string page = page_of("run", {{"command", "evaluate"}});
   for (const PageFile& file : page_files()) {
     if (file.name == "page.html") continue;
@@ -47,7 +47,7 @@ TEST(ReportPage, HoldsEverythingThatItNeeds) {
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
 }
 
-TEST(ReportPage, HostileTextsStayTexts) {
+TEST(Page, HostileTextsStayTexts) {
   const Json hostile{{"command", "</script><img src=x onerror=alert(1)>"},
                      {"<!--<script>", "{{style}} &lt; \"quoted\" \\ \u2028"},
                      {"list", {"</SCRIPT >", "]]>", "\n"}}};
@@ -61,7 +61,7 @@ TEST(ReportPage, HostileTextsStayTexts) {
   EXPECT_EQ(data_in(page), hostile);
 }
 
-TEST(ReportPage, TakesTextsThatAreNotUnicode) {
+TEST(Page, TakesTextsThatAreNotUnicode) {
   const Json data = data_in(page_of("t", {{"text", "before\xff\xfe after"}}));
   EXPECT_THAT(data.at("text").get<std::string>(),
               testing::AllOf(testing::StartsWith("before"), testing::EndsWith(" after")));
