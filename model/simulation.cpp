@@ -276,9 +276,9 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
     const double reach = farthest * band.centre() / band.longest;
     if (std::abs(design.planes[plane]) <= reach) continue;
     throw InputError("sensor.planes", design.planes[plane],
-                     fmt::format("distances within +-{} with simulation.pupil_samples = {}; "
-                                 "fewer samples reach farther",
-                                 bound_text(reach), truth_samples));
+                     fmt::format("distances within +-{} with simulation.pupil_samples = {}",
+                                 bound_text(reach), truth_samples),
+                     "fewer samples reach farther");
   }
   return design;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/words.hpp"
+
 #include <vector>
 
 namespace nlcwfs {
@@ -11,6 +13,13 @@ enum class AggregateKind {
   quantile,  ///< of the costs of all screens and conditions, at the level
   cvar       ///< conditional value at risk: the mean of the costs beyond that quantile
 };
+
+template <>
+inline constexpr auto word_table<AggregateKind> =
+    std::to_array<Word<AggregateKind>>({{"mean", AggregateKind::mean},
+                                        {"worst", AggregateKind::worst},
+                                        {"quantile", AggregateKind::quantile},
+                                        {"cvar", AggregateKind::cvar}});
 
 /// Makes one cost per screen of the costs under several conditions.
 struct CostAggregate {

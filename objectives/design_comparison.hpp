@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/statistics.hpp"
+#include "model/words.hpp"
 #include "objectives/design_trial.hpp"
 
 #include <cstddef>
@@ -10,6 +11,12 @@ namespace nlcwfs {
 
 /// What a comparison of two designs says.
 enum class Verdict { better, indistinguishable, worse };
+
+template <>
+inline constexpr auto word_table<Verdict> =
+    std::to_array<Word<Verdict>>({{"better", Verdict::better},
+                                  {"indistinguishable", Verdict::indistinguishable},
+                                  {"worse", Verdict::worse}});
 
 /// How much cheaper one design is than another on the same screens.
 struct Improvement {

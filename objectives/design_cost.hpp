@@ -2,6 +2,7 @@
 
 #include "model/performance.hpp"
 #include "model/sensor_design.hpp"
+#include "model/words.hpp"
 #include "objectives/cost_aggregate.hpp"
 #include "objectives/design_metric.hpp"
 
@@ -17,6 +18,15 @@ enum class CostKind {
   weighted,     ///< WFE / wfe_scale + loop_weight x fractional loops + time_weight x model time
   error_budget  ///< error_budget_nm
 };
+
+template <>
+inline constexpr auto word_table<WavefrontErrorKind> =
+    std::to_array<Word<WavefrontErrorKind>>({{"residual", WavefrontErrorKind::residual},
+                                             {"wrapped", WavefrontErrorKind::wrapped},
+                                             {"total", WavefrontErrorKind::total}});
+template <>
+inline constexpr auto word_table<CostKind> = std::to_array<Word<CostKind>>(
+    {{"weighted", CostKind::weighted}, {"error_budget", CostKind::error_budget}});
 
 /// A metric in a cost, times a weight.
 struct CostTerm {

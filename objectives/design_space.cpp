@@ -85,8 +85,7 @@ void require_distances(const std::string& key, const Domain& domain, bool both_s
   require_near_enough(range.upper, text_of(range));
 }
 
-void require_property(const std::string& key, const Domain& domain,
-                      const DesignProperty& property) {
+void require_property(const std::string& key, const Domain& domain, const DesignField& property) {
   const auto* range = std::get_if<ValueRange>(&domain);
   if (range == nullptr) return;
   if (property.kind == VariableKind::categorical) {
@@ -96,71 +95,17 @@ void require_property(const std::string& key, const Domain& domain,
     throw InputError(key, text_of(*range), "min:max with min < max");
   }
   if (range->scale.value_or(property.scale) == Scale::logarithmic && !(range->lower > 0.0)) {
-    throw InputError(key, text_of(*range), "above 0 on a logarithmic scale; take min:max:linear");
+    throw InputError(key, text_of(*range), "above 0 on a logarithmic scale", "take min:max:linear");
   }
-  if (property.name == "pupil_pixels") {
+  if (property.variable == "pupil_pixels") {
     throw InputError(key, text_of(*range),
                      "a list, such as 16,32,64: divisors of simulation.pupil_samples");
   }
 }
 
-const DesignProperty* find_property(std::string_view name) {
-  const auto properties = design_properties();
-  const auto found = std::ranges::find(properties, name, &DesignProperty::name);
-  return found == properties.end() ? nullptr : &*found;
-}
-
 bool is_pair_name(std::string_view name) { return std::ranges::count(pair_names, name) > 0; }
 
 }  // namespace
-
-std::span<const DesignProperty> design_properties() {
-  using enum VariableKind;
-  using enum Scale;
-  using Design = SensorDesign;
-  static constexpr std::array properties{
-      DesignProperty{"pupil_pixels", integer, linear, "",
-                     [](const Design& d) { return double(d.detector.pupil_pixels); },
-                     [](Design& d, double v) { d.detector.pupil_pixels = int(std::lround(v)); }},
-      DesignProperty{"detector_window", continuous, linear, "",
-                     [](const Design& d) { return d.detector.window; },
-                     [](Design& d, double v) { d.detector.window = v; }},
-      DesignProperty{"reconstruction_window", continuous, linear, "",
-                     [](const Design& d) { return d.reconstruction.window; },
-                     [](Design& d, double v) { d.reconstruction.window = v; }},
-      DesignProperty{"relaxation", continuous, linear, "",
-                     [](const Design& d) { return d.reconstruction.relaxation_start; },
-                     [](Design& d, double v) {
-                       d.reconstruction.relaxation_start = d.reconstruction.relaxation_end = v;
-                     }},
-      DesignProperty{"relaxation_start", continuous, linear, "",
-                     [](const Design& d) { return d.reconstruction.relaxation_start; },
-                     [](Design& d, double v) { d.reconstruction.relaxation_start = v; }},
-      DesignProperty{"relaxation_end", continuous, linear, "",
-                     [](const Design& d) { return d.reconstruction.relaxation_end; },
-                     [](Design& d, double v) { d.reconstruction.relaxation_end = v; }},
-      DesignProperty{"initial_guess", categorical, linear, "",
-                     [](const Design& d) { return double(d.reconstruction.initial_guess); },
-                     [](Design& d, double v) {
-                       d.reconstruction.initial_guess = static_cast<InitialGuess>(std::lround(v));
-                     }},
-      DesignProperty{
-          "reconstruction_oversampling", integer, linear, "",
-          [](const Design& d) { return double(d.reconstruction.oversampling); },
-          [](Design& d, double v) { d.reconstruction.oversampling = int(std::lround(v)); }},
-      DesignProperty{"tolerance", continuous, logarithmic, "m",
-                     [](const Design& d) { return d.reconstruction.tolerance; },
-                     [](Design& d, double v) { d.reconstruction.tolerance = v; }},
-      DesignProperty{"exposure", continuous, logarithmic, "s",
-                     [](const Design& d) { return d.detector.exposure; },
-                     [](Design& d, double v) { d.detector.exposure = v; }}};
-  return properties;
-}
-
-std::string_view unit_of_variable(std::string_view name) {
-  if (const DesignProperty* property = find_property(name)) return property->unit;
-  return name == "order" ? "" : "m";
-}
 
 std::vector<VisitingOrder> all_orders(int planes) {
   VisitingOrder numbers(static_cast<std::size_t>(2 * pair_count(planes)));
@@ -350,7 +295,7 @@ DesignSpace::Region DesignSpace::region_of(int planes) const {
     region.add({"order", Axis::Form::listed, indices, 1.0, VariableKind::categorical});
   }
   for (const auto& [name, domain] : options_.domains) {
-    if (const DesignProperty* property = find_property(name)) {
+    if (const DesignField* property = find_design_property(name)) {
       region.add(property_axis(*property, domain));
     }
   }
@@ -377,9 +322,9 @@ DesignSpace::Axis DesignSpace::distance_axis(const std::string& name) const {
   return {name, Axis::Form::two_sided, {lower, upper}, closest};
 }
 
-DesignSpace::Axis DesignSpace::property_axis(const DesignProperty& property,
+DesignSpace::Axis DesignSpace::property_axis(const DesignField& property,
                                              const Domain& domain) const {
-  const std::string name(property.name);
+  const std::string name(property.variable);
   require_property(key_of(name), domain, property);
   const VariableKind list_kind = property.kind == VariableKind::categorical
                                      ? VariableKind::categorical
@@ -401,11 +346,11 @@ void DesignSpace::require_used_domains() const {
   const bool is_symmetric = options_.layout == Layout::symmetric;
   for (const auto& domain : options_.domains) {
     const std::string& name = domain.first;
-    if (find_property(name) != nullptr) continue;
+    if (find_design_property(name) != nullptr) continue;
     if (is_pair_name(name) != is_symmetric) {
-      throw InputError(
-          key_of(name), text_of(domain.second),
-          fmt::format("is for {} = {}", key_of("layout"), is_symmetric ? "free" : "symmetric"));
+      throw InputError(key_of(name), text_of(domain.second),
+                       fmt::format("is for {} = {}", key_of("layout"),
+                                   word_of(is_symmetric ? Layout::free : Layout::symmetric)));
     }
     const bool is_used = std::ranges::any_of(regions_, [&](const Region& region) {
       return std::ranges::count(region.distances(options_.layout), name) > 0;
@@ -454,7 +399,7 @@ SensorDesign DesignSpace::design(const SearchPoint& point) const {
     design.planes = visited(region.orders[order], design.planes);
   }
   for (const auto& [name, value] : values) {
-    if (const DesignProperty* property = find_property(name)) property->set(design, value);
+    if (const DesignField* property = find_design_property(name)) property->set(design, value);
   }
   if (varies("detector_window")) {
     const int width = rounded_width(design.detector.window, design.detector.pupil_pixels);
@@ -494,7 +439,7 @@ std::optional<SearchPoint> DesignSpace::point_of(const SensorDesign& design) con
     if (name == "order") {
       return double(std::ranges::find(region->orders, naming.order) - region->orders.begin());
     }
-    if (const DesignProperty* property = find_property(name)) return property->get(design);
+    if (const DesignField* property = find_design_property(name)) return property->get(design);
     return naming.distances.at(name);
   };
   for (const Naming& naming : namings) {
@@ -533,7 +478,7 @@ bool DesignSpace::varies(std::string_view property) const {
 
 std::string design_key(const SensorDesign& design) {
   std::vector<double> values;
-  for (const DesignProperty& property : design_properties()) {
+  for (const DesignField& property : design_properties()) {
     values.push_back(property.get(design));
   }
   return fmt::format("{:.7g};{:.7g}", fmt::join(design.planes, ","), fmt::join(values, ","));

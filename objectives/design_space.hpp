@@ -2,6 +2,8 @@
 
 #include "model/sensor_design.hpp"
 #include "model/telescope.hpp"
+#include "model/words.hpp"
+#include "objectives/design_field.hpp"
 #include "optimizer/problem.hpp"
 
 #include <array>
@@ -16,9 +18,6 @@
 
 namespace nlcwfs {
 
-/// How the numbers of a range are spaced.
-enum class Scale { linear, logarithmic };
-
 /// The numbers from `lower` to `upper`.
 struct ValueRange {
   double lower = 0.0;               ///< included
@@ -30,30 +29,15 @@ struct ValueRange {
 /// A list of one fixes it.
 using Domain = std::variant<ValueRange, std::vector<double>>;
 
-/// A property of a sensor, other than its planes, that may be varied.
-struct DesignProperty {
-  std::string_view name;  ///< as the sections search and sweep have it
-  VariableKind kind;      ///< integer: ranges are of whole numbers; categorical: lists only
-  Scale scale;            ///< of ranges, unless they have their own
-  std::string_view unit;  ///< SI; empty for what has none
-  double (*get)(const SensorDesign&);  ///< in SI; the place among the words of a categorical one
-  void (*set)(SensorDesign&, double);  ///< the inverse of get
-};
-
-/// All of them: pupil_pixels, detector_window, reconstruction_window, relaxation (start and end
-/// alike), relaxation_start, relaxation_end, initial_guess (0 flat, 1 centroid),
-/// reconstruction_oversampling, tolerance, exposure.
-std::span<const DesignProperty> design_properties();
-
-/// The unit of a variable of the sections search and sweep: "m", "s", or empty for what has none.
-/// @param name  of a design property, "order", or a plane's or pair's distance
-std::string_view unit_of_variable(std::string_view name);
-
 /// How planes are placed.
 enum class Layout {
   symmetric,  ///< in pairs -Z, +Z; with an odd number of planes one is left out
   free        ///< each at its own signed distance
 };
+
+template <>
+inline constexpr auto word_table<Layout> =
+    std::to_array<Word<Layout>>({{"symmetric", Layout::symmetric}, {"free", Layout::free}});
 
 /// The distances of a symmetric layout's pairs, in the order in which planes are numbered.
 inline constexpr std::array<std::string_view, 3> pair_names{"z_near", "z_far", "z_third"};
@@ -149,7 +133,7 @@ class DesignSpace {
   std::string key_of(std::string_view name) const;
   Region region_of(int planes) const;
   Axis distance_axis(const std::string& name) const;
-  Axis property_axis(const DesignProperty& property, const Domain& domain) const;
+  Axis property_axis(const DesignField& property, const Domain& domain) const;
   void require_used_domains() const;
 
   Telescope telescope_;

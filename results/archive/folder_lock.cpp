@@ -17,8 +17,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   if (file_ < 0) file_ = open((folder / "config.cfg").c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(file_);
-  throw InputError("--resume", folder.string(),
-                   "another run works in it; wait for its end, or end it first");
+  throw InputError("--resume", folder.string(), "another run works in it",
+                   "wait for its end, or end it first");
 }
 
 FolderLock::~FolderLock() {

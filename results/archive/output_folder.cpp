@@ -21,9 +21,9 @@ namespace {
 bool make_folder(const std::filesystem::path& folder) {
   const auto check = [&](const std::error_code& failure) {
     if (!failure) return;
-    throw InputError(
-        "--output", folder.string(),
-        fmt::format("cannot be made ({}); name a folder where you may write", failure.message()));
+    throw InputError("--output", folder.string(),
+                     fmt::format("cannot be made ({})", failure.message()),
+                     "name a folder where you may write");
   };
   std::error_code failure;
   if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), failure);
@@ -51,8 +51,8 @@ bool sync_to_disk(const std::filesystem::path& path) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& requested) {
-  throw InputError("--output", requested.string(),
-                   "exists; name a folder that does not, nothing is ever overwritten");
+  throw InputError("--output", requested.string(), "exists",
+                   "name a folder that does not, nothing is ever overwritten");
 }
 
 }  // namespace

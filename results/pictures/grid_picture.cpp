@@ -85,15 +85,13 @@ double GridPictureAxis::place_of(const SensorDesign& design,
     const auto plane = static_cast<std::size_t>(name[1] - '1');
     return plane < design.planes.size() ? design.planes[plane] / unit : nan;
   }
-  const auto properties = design_properties();
-  const auto property = std::ranges::find(properties, name, &DesignProperty::name);
-  if (property == properties.end()) return nan;
+  const DesignField* property = find_design_property(name);
+  if (property == nullptr) return nan;
   const double value = property->get(design);
   if (drawn.words.empty()) return value / unit;
   // A word's value is its number among all words, of which the axis may have some.
-  const std::string word =
-      static_cast<InitialGuess>(std::lround(value)) == InitialGuess::flat ? "flat" : "centroid";
-  const auto found = std::ranges::find(drawn.words, word);
+  const auto found =
+      std::ranges::find(drawn.words, property->words[static_cast<std::size_t>(value)]);
   return found == drawn.words.end() ? nan : double(found - drawn.words.begin());
 }
 

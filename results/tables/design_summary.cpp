@@ -1,13 +1,16 @@
 #include "results/tables/design_summary.hpp"
 
+#include "objectives/design_field.hpp"
 #include "results/tables/json_numbers.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
@@ -24,15 +27,44 @@ Json of_each(const std::vector<double>& values, const Function& function) {
 /// JSON has no infinity: the Fresnel number of the pupil itself is null.
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Of the two values that a word of a design may stand for, that which it does.
-template <class Value>
-Value value_of(const Json& json, const char* member, std::pair<const char*, Value> one,
-               std::pair<const char*, Value> other) {
-  const std::string word = json.at(member);
-  if (word == one.first) return one.second;
-  if (word == other.first) return other.second;
-  throw std::runtime_error(
-      fmt::format("{} is '{}', but should be {} or {}", member, word, one.first, other.first));
+/// Whether other fields have the same member.
+bool is_of_a_list(const DesignField& field) {
+  return std::ranges::count(design_fields(), field.summary, &DesignField::summary) > 1;
+}
+
+/// A field of a design as JSON has it.
+Json value_of(const SensorDesign& design, const DesignField& field) {
+  const double value = field.get(design);
+  switch (field.kind) {
+    case VariableKind::categorical:
+      return field.words[static_cast<std::size_t>(value)];
+    case VariableKind::integer:
+      return static_cast<int>(value);
+    case VariableKind::continuous:
+      break;
+  }
+  // Of a rate the summary has its product with the exposure.
+  return field.summary == "photons" ? design.detector.photons_per_frame() : value;
+}
+
+/// The inverse.
+double value_of(const Json& json, const DesignField& field) {
+  switch (field.kind) {
+    case VariableKind::categorical: {
+      const std::string word = json;
+      const auto found = std::ranges::find(field.words, word);
+      if (found == field.words.end()) {
+        throw std::runtime_error(fmt::format("{} is '{}', but should be {}", field.summary, word,
+                                             fmt::join(field.words, " or ")));
+      }
+      return double(found - field.words.begin());
+    }
+    case VariableKind::integer:
+      return integer_from_json(json);
+    case VariableKind::continuous:
+      break;
+  }
+  return json;
 }
 
 }  // namespace
@@ -54,7 +86,6 @@ Json to_json(const Performance& performance) {
 
 Json to_json(const SensorDesign& design, const Telescope& telescope, double fried_parameter) {
   const double talbot = talbot_distance(fried_parameter, telescope.wavelength);
-  const ReconstructionOptions& reconstruction = design.reconstruction;
   Json json;
   json["planes_m"] = design.planes;
   json["planes_talbot"] = of_each(design.planes, [&](double z) { return Json(z / talbot); });
@@ -64,56 +95,30 @@ Json to_json(const SensorDesign& design, const Telescope& telescope, double frie
     json["planes_bench_m"] =
         of_each(design.planes, [&](double z) { return Json(bench_distance(z, telescope)); });
   }
-  json["pupil_pixels"] = design.detector.pupil_pixels;
-  json["detector_window"] = design.detector.window;
-  json["photons"] = design.detector.photons_per_frame();
-  json["photon_rate"] = design.detector.photon_rate;
-  json["exposure_s"] = design.detector.exposure;
-  json["read_noise"] = design.detector.read_noise;
-  json["max_loops"] = reconstruction.max_loops;
-  json["tolerance_m"] = reconstruction.tolerance;
-  json["stopping"] =
-      reconstruction.stopping == StoppingRule::difference ? "difference" : "rms_change";
-  json["relaxation"] = {reconstruction.relaxation_start, reconstruction.relaxation_end};
-  json["initial_guess"] = reconstruction.initial_guess == InitialGuess::flat ? "flat" : "centroid";
-  json["reconstruction_window"] = reconstruction.window;
-  json["outside"] = reconstruction.outside == OutsideDetector::free ? "free" : "zero";
-  json["oversampling"] = reconstruction.oversampling;
-  json["unwrapping"] = reconstruction.unwrapping == UnwrappingMethod::quality_guided
-                           ? "quality_guided"
-                           : "least_squares";
+  for (const DesignField& field : design_fields()) {
+    if (field.summary.empty()) continue;
+    const std::string member(field.summary);
+    if (is_of_a_list(field)) {
+      json[member].push_back(value_of(design, field));
+    } else {
+      json[member] = value_of(design, field);
+    }
+  }
   return json;
 }
 
 SensorDesign design_from_json(const Json& json) {
-  using enum StoppingRule;
-  using enum InitialGuess;
-  using enum OutsideDetector;
-  using enum UnwrappingMethod;
-  const double photon_rate = json.at("photon_rate");
-  return {.planes = json.at("planes_m"),
-          .detector = {.pupil_pixels = integer_from_json(json.at("pupil_pixels")),
-                       .window = json.at("detector_window"),
-                       // Of a rate the summary has its product with the exposure.
-                       .photons = photon_rate > 0.0 ? 0.0 : json.at("photons").get<double>(),
-                       .read_noise = json.at("read_noise"),
-                       .photon_rate = photon_rate,
-                       .exposure = json.at("exposure_s")},
-          .reconstruction = {
-              .max_loops = integer_from_json(json.at("max_loops")),
-              .tolerance = json.at("tolerance_m"),
-              .stopping = value_of<StoppingRule>(json, "stopping", {"difference", difference},
-                                                 {"rms_change", rms_change}),
-              .relaxation_start = json.at("relaxation").at(0),
-              .relaxation_end = json.at("relaxation").at(1),
-              .initial_guess = value_of<InitialGuess>(json, "initial_guess", {"flat", flat},
-                                                      {"centroid", centroid}),
-              .window = json.at("reconstruction_window"),
-              .outside = value_of<OutsideDetector>(json, "outside", {"free", free}, {"zero", zero}),
-              .oversampling = integer_from_json(json.at("oversampling")),
-              .unwrapping =
-                  value_of<UnwrappingMethod>(json, "unwrapping", {"quality_guided", quality_guided},
-                                             {"least_squares", least_squares})}};
+  SensorDesign design;
+  design.planes = json.at("planes_m").get<std::vector<double>>();
+  std::map<std::string, std::size_t> read;
+  for (const DesignField& field : design_fields()) {
+    if (field.summary.empty()) continue;
+    const std::string member(field.summary);
+    const Json& value = json.at(member);
+    field.set(design, value_of(is_of_a_list(field) ? value.at(read[member]++) : value, field));
+  }
+  if (design.detector.photon_rate > 0.0) design.detector.photons = 0.0;
+  return design;
 }
 
 }  // namespace nlcwfs

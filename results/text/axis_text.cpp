@@ -12,17 +12,16 @@
 namespace nlcwfs {
 
 std::string label_of(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> labels{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> labels{
       {{"residual_wfe_nm", "residual WFE, nm"},
        {"fractional_loops", "fractional loops"},
        {"z_near", "distance of the near pair"},
        {"z_far", "distance of the far pair"},
        {"z_third", "distance of the third pair"},
-       {"order", "visiting order"},
-       {"detector_window", "detector window, pupil diameters"},
-       {"reconstruction_window", "reconstruction window, pupil diameters"}}};
+       {"order", "visiting order"}}};
   const auto* const known = std::ranges::find(labels, name, &decltype(labels)::value_type::first);
   if (known != labels.end()) return std::string(known->second);
+  if (const DesignField* property = find_design_property(name)) return std::string(property->label);
   if (name.size() == 2 && name[0] == 'z') return fmt::format("distance of plane {}", name[1]);
   std::string label(name);
   std::ranges::replace(label, '_', ' ');

@@ -67,17 +67,21 @@ std::string planes_table(const SensorDesign& design, const Telescope& telescope,
 }
 
 std::string variable_text(std::string_view name, double value) {
-  if (name.starts_with('z') || name == "tolerance") return format_length(value);
-  if (name == "initial_guess") return value == 0.0 ? "flat" : "centroid";
-  return fmt::format("{:.4g}{}", value, name == "exposure" ? " s" : "");
+  const DesignField* property = find_design_property(name);
+  if (property != nullptr && !property->words.empty()) {
+    return std::string(property->words[static_cast<std::size_t>(value)]);
+  }
+  const std::string_view unit = unit_of_variable(name);
+  if (unit == "m") return format_length(value);
+  return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 std::string choices_text(const DesignSpace& space, const SensorDesign& design) {
   std::string text;
-  for (const DesignProperty& property : design_properties()) {
-    if (!space.decides(property.name)) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "  with " : ", ", property.name,
-                        variable_text(property.name, property.get(design)));
+  for (const DesignField& property : design_properties()) {
+    if (!space.decides(property.variable)) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "  with " : ", ", property.variable,
+                        variable_text(property.variable, property.get(design)));
   }
   return text.empty() ? text : text + '\n';
 }

@@ -45,24 +45,18 @@ std::string number_as_typed(const ConfigurationKey& key, const std::string& type
 }  // namespace
 
 InputError as_typed(const InputError& error, const Configuration& configuration) {
-  const std::string_view message = error.what();
-  const auto equals = message.find(" = ");
-  const auto colon = message.find(": ", equals);
-  if (equals == std::string_view::npos || colon == std::string_view::npos) return error;
-  const auto key =
-      std::ranges::find(configuration_keys(), message.substr(0, equals), &ConfigurationKey::name);
+  const auto key = std::ranges::find(configuration_keys(), error.key(), &ConfigurationKey::name);
   if (key == configuration_keys().end() || !is_numeric(key->kind)) return error;
   const std::string& typed = configuration.value_text(key->name);
   if (typed.empty()) return error;
-  const std::string_view value = message.substr(equals + 3, colon - equals - 3);
   std::string shown = one_line(typed);
-  if (const auto number = parse_number(value)) {
+  if (const auto number = parse_number(error.value())) {
     shown = number_as_typed(*key, typed, *number);
-  } else if (typed.find(value) != std::string::npos) {
+  } else if (typed.find(error.value()) != std::string::npos) {
     return error;
   }
   if (shown.empty()) return error;
-  return {key->name, shown, message.substr(colon + 2)};
+  return {key->name, shown, error.allowed(), error.remedy()};
 }
 
 }  // namespace nlcwfs

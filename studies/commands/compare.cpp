@@ -2,6 +2,7 @@
 // finding them took.
 #include "model/input_error.hpp"
 #include "objectives/design_comparison.hpp"
+#include "objectives/design_field.hpp"
 #include "results/archive/archive.hpp"
 #include "results/archive/run_files.hpp"
 #include "results/pictures/grid_picture.hpp"
@@ -54,18 +55,16 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
                          const std::filesystem::path& folder) {
   const std::string shown = one_line(folder.string());
   if (!std::filesystem::is_directory(folder)) {
-    throw InputError(argument, shown,
-                     fmt::format("there is no such folder; name that of a finished {}", command));
+    throw InputError(argument, shown, "there is no such folder",
+                     fmt::format("name that of a finished {}", command));
   }
   if (!std::filesystem::is_regular_file(folder / "config.cfg")) {
-    throw InputError(argument, shown,
-                     fmt::format("has no config.cfg; name the folder of a finished {}", command));
+    throw InputError(argument, shown, "has no config.cfg",
+                     fmt::format("name the folder of a finished {}", command));
   }
   if (!std::filesystem::is_regular_file(folder / "summary.json")) {
-    throw InputError(argument, shown,
-                     fmt::format("has no summary.json: the run is not finished; give that of a "
-                                 "finished {}",
-                                 command));
+    throw InputError(argument, shown, "has no summary.json: the run is not finished",
+                     fmt::format("give that of a finished {}", command));
   }
   FinishedRun run{.folder = folder};
   run.configuration.read_file(folder / "config.cfg");
@@ -74,10 +73,8 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
     if (!run.summary.is_object()) throw std::runtime_error("it is no JSON object");
     const std::string made_by = run.summary.at("command");
     if (made_by != command) {
-      throw InputError(argument, shown,
-                       fmt::format("is a run of {}; give first the folder of a sweep, then that of "
-                                   "an optimize",
-                                   made_by));
+      throw InputError(argument, shown, fmt::format("is a run of {}", made_by),
+                       "give first the folder of a sweep, then that of an optimize");
     }
     run.best = design_from_json(run.summary.at("best"));
     run.designs = integer_from_json(run.summary.at("evaluations"));
@@ -95,31 +92,12 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
   return run;
 }
 
-/// A key of the design with the properties by which a grid or a search may decide on it.
-struct DesignKey {
-  std::string_view key;
-  std::vector<std::string_view> properties;
-};
-
-const std::vector<DesignKey>& design_keys() {
-  static const std::vector<DesignKey> keys{
-      {"detector.pupil_pixels", {"pupil_pixels"}},
-      {"detector.window", {"detector_window"}},
-      {"reconstruction.window", {"reconstruction_window"}},
-      {"reconstruction.relaxation", {"relaxation", "relaxation_start", "relaxation_end"}},
-      {"reconstruction.initial_guess", {"initial_guess"}},
-      {"reconstruction.oversampling", {"reconstruction_oversampling"}},
-      {"reconstruction.tolerance", {"tolerance"}},
-      {"detector.exposure", {"exposure"}}};
-  return keys;
-}
-
+/// Whether the grid or the search of a run decides on a key of the design.
 bool decides_on(const FinishedRun& run, std::string_view section, std::string_view key) {
-  const auto found = std::ranges::find(design_keys(), key, &DesignKey::key);
-  return found != design_keys().end() &&
-         std::ranges::any_of(found->properties, [&](std::string_view property) {
-           return run.configuration.is_set(fmt::format("{}.{}", section, property));
-         });
+  return std::ranges::any_of(design_properties(), [&](const DesignField& field) {
+    return field.key == key &&
+           run.configuration.is_set(fmt::format("{}.{}", section, field.variable));
+  });
 }
 
 /// Whether designs of equal costs would have others under another value of the key.
@@ -207,8 +185,9 @@ Configuration comparison_configuration(const Configuration& given, const Finishe
       continue;
     }
     throw InputError(key.name, value_or_not_set(given, key.name),
-                     fmt::format("compare takes it from the sweep, where it is {}; leave it away",
-                                 value_or_not_set(configuration, key.name)));
+                     fmt::format("compare takes it from the sweep, where it is {}",
+                                 value_or_not_set(configuration, key.name)),
+                     "leave it away");
   }
   for (const char* key : verification) {
     if (is_given(key)) configuration.set(key, given.value_text(key), given.source(key));
@@ -259,18 +238,6 @@ std::optional<std::string> write_path_picture(const FinishedRun& sweep, const Fi
   }
   return write_grid_picture(picture_title(telescope, seeing), sweep.summary.at("grid"), "cost",
                             {sweep.best, nan}, folder.file("path"), path);
-}
-
-std::string_view verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::better:
-      return "better";
-    case Verdict::indistinguishable:
-      return "indistinguishable";
-    case Verdict::worse:
-      break;
-  }
-  return "worse";
 }
 
 std::string verdict_text(const Improvement& gain, double sweep_cost) {
@@ -389,7 +356,7 @@ void run_compare(const Request& request) {
       {{"sweep", to_json(swept, trial)},
        {"optimize", to_json(found, trial)},
        {"difference", to_json(MeanAndError{-gain.cost.mean, gain.cost.standard_error})},
-       {"verdict", verdict_word(gain.verdict)},
+       {"verdict", word_of(gain.verdict)},
        {"cost",
         {{"sweep", effort_object(sweep)},
          {"optimize", effort_object(optimize)},
@@ -412,7 +379,7 @@ std::string of_compare(const Json& summary) {
       fmt::format("the optimizer's design costs {} {} than the sweep's, screen by screen",
                   with_error({std::abs(difference.mean), difference.standard_error}),
                   difference.mean < 0.0 ? "less" : "more");
-  return verdict == "indistinguishable"
+  return verdict == word_of(Verdict::indistinguishable)
              ? fmt::format("The two designs cannot be told apart: {}.", costs)
              : fmt::format("The optimizer's design is {}: {}.", verdict, costs);
 }

@@ -101,8 +101,8 @@ std::string front_table(const TradeSearch& task, const TradeResult& result) {
     const bool is_there = std::ranges::count(metrics, known.name, &DesignMetric::name) > 0;
     if (!is_there && known.name != "seconds") metrics.push_back(known);
   }
-  for (const DesignProperty& property : design_properties()) {
-    columns.push_back(column_of_variable(property.name));
+  for (const DesignField& property : design_properties()) {
+    columns.push_back(column_of_variable(property.variable));
   }
   for (const DesignMetric& metric : metrics) {
     columns.emplace_back(metric.name);
@@ -117,7 +117,7 @@ std::string front_table(const TradeSearch& task, const TradeResult& result) {
         .add(traded.dominated ? 1.0 : 0.0)
         .add(traded.evaluated.violation)
         .add(fmt::format("{:.7g}", fmt::join(design.planes, ",")));
-    for (const DesignProperty& property : design_properties()) table.add(property.get(design));
+    for (const DesignField& property : design_properties()) table.add(property.get(design));
     for (std::size_t k = 0; k < metrics.size(); ++k) {
       const MeanAndError value = k < traded.objectives.size()
                                      ? traded.objectives[k]

@@ -25,6 +25,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,7 +43,8 @@ enum Tag {
   trial_tag,   ///< from rank 0: place, threads, DesignTrial::identity, DesignTrial::spec
   piece_tag,   ///< from rank 0: number, place of the trial, first screen, screens, design
   end_tag,     ///< from rank 0: empty
-  answer_tag,  ///< to rank 0: number of the piece, Answer, performance_record or text
+  answer_tag,  ///< to rank 0: number of the piece, Answer, and performance_record, the text of the
+               ///< failure, or the parts of the InputError
 };
 
 enum class Answer {
@@ -106,14 +108,6 @@ std::optional<Message> receive() {
   MPI_Recv(message.bytes.data(), size, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD,
            MPI_STATUS_IGNORE);
   return message;
-}
-
-/// An InputError with this text.
-InputError input_error(const std::string& text) {
-  const std::size_t equals = text.find(" = ");
-  const std::size_t colon = text.find(": ", equals);
-  return {text.substr(0, equals), text.substr(equals + 3, colon - equals - 3),
-          text.substr(colon + 2)};
 }
 
 /// A rank that simulates for rank 0. One thread talks to that, others simulate.
@@ -191,7 +185,8 @@ class Server {
               Json::binary(performance_record(
                   piece.trial->simulate(piece.design, piece.first, piece.count)))};
     } catch (const InputError& error) {
-      return {piece.number, Answer::bad_input, error.what()};
+      return {piece.number, Answer::bad_input,
+              Json{error.key(), error.value(), error.allowed(), error.remedy()}};
     } catch (const std::exception& error) {
       return {piece.number, Answer::failure, error.what()};
     }
@@ -311,8 +306,10 @@ class Manager : public TrialQueue {
         case Answer::performances:
           piece.done(performances_of(content.at(2).get_binary()));
           return;
-        case Answer::bad_input:
-          throw input_error(content.at(2));
+        case Answer::bad_input: {
+          const std::vector<std::string> error = content.at(2);
+          throw InputError(error.at(0), error.at(1), error.at(2), error.at(3));
+        }
         case Answer::failure:
           throw std::runtime_error(content.at(2));
       }

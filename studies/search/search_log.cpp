@@ -17,8 +17,8 @@ namespace {
 /// Of every search, whatever it varies: what differs from the configuration is easily seen.
 std::vector<std::string> columns(const std::vector<DesignMetric>& objectives) {
   std::vector<std::string> names{"evaluation", "planes_m"};
-  for (const DesignProperty& property : design_properties()) {
-    names.push_back(column_of_variable(property.name));
+  for (const DesignField& property : design_properties()) {
+    names.push_back(column_of_variable(property.variable));
   }
   for (const char* name : {"cost", "violation", "screens", "given_up", "residual_wfe_nm",
                            "total_wfe_nm", "fractional_loops", "failure"}) {
@@ -64,7 +64,7 @@ void SearchLog::add(const EvaluationRecord& evaluation) {
                    .performance = failed ? "" : to_json(pooled(tried->performances)).dump()});
 
   table_.row().add(evaluation.index).add(fmt::format("{:.7g}", fmt::join(design.planes, ",")));
-  for (const DesignProperty& property : design_properties()) table_.add(property.get(design));
+  for (const DesignField& property : design_properties()) table_.add(property.get(design));
   table_.add(evaluation.cost)
       .add(evaluation.violation)
       .add(static_cast<double>(evaluation.samples));

@@ -22,16 +22,9 @@
 namespace nlcwfs {
 namespace {
 
+/// In a ranking.
 std::string_view word_for(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::better:
-      return "better";
-    case Verdict::indistinguishable:
-      return "tied";
-    case Verdict::worse:
-      break;
-  }
-  return "worse";
+  return verdict == Verdict::indistinguishable ? "tied" : word_of(verdict);
 }
 
 /// "-115.4 km, 115.4 km"

@@ -1,6 +1,9 @@
+#include "model/words.hpp"
+#include "objectives/design_cost.hpp"
 #include "objectives/design_metric.hpp"
+#include "objectives/design_space.hpp"
 #include "optimizer/nlopt_backend.hpp"
-#include "studies/settings/configuration.hpp"
+#include "studies/settings/configuration_key.hpp"
 
 #include <fmt/format.h>
 
@@ -69,7 +72,7 @@ std::vector<Variation> variations() {
         {},
         "",
         "",
-        {"flat", "centroid"}},
+        word_list<InitialGuess>()},
        {"reconstruction_oversampling", Kind::integer,
         "Reconstruction samples per detector pixel and axis.", from_to(1, 16), "1,2", "1,2,4"},
        {"tolerance", Kind::length, "Tolerance of the reconstruction, optical path.", path_bounds,
@@ -196,7 +199,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "path",
        .description = "What of the aberration is the same at every wavelength: its optical path in "
                       "m, or its phase in rad.",
-       .choices = {"path", "phase"}},
+       .choices = word_list<ChromaticAberration>()},
 
       {.name = "screens.count",
        .kind = Kind::integer,
@@ -322,7 +325,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "difference",
        .description = "What the tolerance is held against: the RMS of the change of the phase "
                       "(difference) or the change of the RMS of the wavefront (rms_change).",
-       .choices = {"difference", "rms_change"}},
+       .choices = word_list<StoppingRule>()},
       {.name = "reconstruction.relaxation",
        .kind = Kind::ramp,
        .default_text = "0",
@@ -335,7 +338,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "flat",
        .description = "First estimate of the phase: flat, or the tilt that the images' centroids "
                       "give.",
-       .choices = {"flat", "centroid"}},
+       .choices = word_list<InitialGuess>()},
       {.name = "reconstruction.window",
        .kind = Kind::number,
        .default_text = "8",
@@ -347,7 +350,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "free",
        .description = "The field outside the detector at each plane: left as it is (free) or set "
                       "to zero.",
-       .choices = {"free", "zero"}},
+       .choices = word_list<OutsideDetector>()},
       {.name = "reconstruction.oversampling",
        .kind = Kind::integer,
        .default_text = "1",
@@ -357,7 +360,7 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::choice,
        .default_text = "least_squares",
        .description = "How the reconstructed phase is unwrapped.",
-       .choices = {"quality_guided", "least_squares"}},
+       .choices = word_list<UnwrappingMethod>()},
 
       {.name = "simulation.truth",
        .kind = Kind::choice,
@@ -365,7 +368,7 @@ std::vector<ConfigurationKey> make_keys() {
        .description = "How the measurements are made: free of wrap-around and on a grid of its own "
                       "(extended), on the reconstruction's own periodic grid (matched), or on one "
                       "as wide with simulation.pupil_samples, binned to the pixels (periodic).",
-       .choices = {"extended", "matched", "periodic"}},
+       .choices = word_list<TruthModel>()},
       {.name = "simulation.pupil_samples",
        .kind = Kind::integer,
        .default_text = "128",
@@ -377,7 +380,7 @@ std::vector<ConfigurationKey> make_keys() {
        .default_text = "double",
        .description = "Floating point precision of the reconstruction; a search has its own, a "
                       "verification is always in double.",
-       .choices = {"double", "single"}},
+       .choices = word_list<Precision>()},
       {.name = "simulation.time_limit",
        .kind = Kind::time,
        .description = "Longest time for one wavefront of a design, looked at between its loops: a "
@@ -391,14 +394,14 @@ std::vector<ConfigurationKey> make_keys() {
        .description = "The cost: wfe / wfe_scale + loop_weight x loops + time_weight x time "
                       "(weighted), or total WFE and servo lag together in nm, without these "
                       "weights (error_budget, which needs greenwood_frequency or wind_speed).",
-       .choices = {"weighted", "error_budget"}},
+       .choices = word_list<CostKind>()},
       {.name = "objective.wfe",
        .kind = Kind::choice,
        .description = "Wavefront error in the weighted cost: against the truth on the "
                       "reconstruction's samples, of the unwrapped (residual) or the wrapped phase, "
                       "or at the truth's full resolution (total). Not set: residual, or total "
                       "where designs with different pupil_pixels are compared.",
-       .choices = {"residual", "wrapped", "total"}},
+       .choices = word_list<WavefrontErrorKind>()},
       {.name = "objective.wfe_scale",
        .kind = Kind::length,
        .default_text = "10nm",
@@ -473,7 +476,7 @@ std::vector<ConfigurationKey> make_keys() {
        .description = "What counts of the costs under several seeings and lights: their mean, the "
                       "condition with the highest (worst), or of all screens and conditions the "
                       "quantile at level or the mean cost beyond it (cvar).",
-       .choices = {"mean", "worst", "quantile", "cvar"}},
+       .choices = word_list<AggregateKind>()},
       {.name = "objective.level",
        .kind = Kind::number,
        .default_text = "0.9",
@@ -488,7 +491,7 @@ std::vector<ConfigurationKey> make_keys() {
                       "distance z1, z2, ... (free). Their keys are those below; distances that are "
                       "not set are searched between the Fresnel numbers 200 and 2, on either side "
                       "of the pupil in a free layout; what else is not set is not varied.",
-       .choices = {"symmetric", "free"}},
+       .choices = word_list<Layout>()},
       {.name = "search.plane_count",
        .kind = Kind::domain,
        .default_text = "4",
@@ -563,7 +566,7 @@ std::vector<ConfigurationKey> make_keys() {
        .description =
            "Floating point precision of the reconstruction while searching: single takes "
            "0.6 of the time, and residuals of reconstructions that converge agree within 0.02 nm.",
-       .choices = {"double", "single"}},
+       .choices = word_list<Precision>()},
       {.name = "search.seed",
        .kind = Kind::seed,
        .default_text = "1",
@@ -584,7 +587,7 @@ std::vector<ConfigurationKey> make_keys() {
             "Layout of the designs of a sweep, as search.layout. Every key below that is "
             "set is an axis of its grid; distances that are not are those of "
             "sensor.planes, what else is not set is not varied.",
-        .choices = {"symmetric", "free"}},
+        .choices = word_list<Layout>()},
        {.name = "sweep.crossed_pairs",
         .kind = Kind::choice,
         .default_text = "kept",
@@ -663,7 +666,7 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::choice,
        .default_text = "flat",
        .description = "First estimate of the baseline, as reconstruction.initial_guess.",
-       .choices = {"flat", "centroid"}},
+       .choices = word_list<InitialGuess>()},
 
       {.name = "verify.screens",
        .kind = Kind::integer,

@@ -224,8 +224,8 @@ Json to_json(const LawFile& file) {
 LawFile parse_law_file(std::string_view text, const std::string& name) {
   const Json json = json_of(text);
   if (!json.is_object() || !(json.contains("conditions") || json.contains("data"))) {
-    throw InputError("advise.law", one_line(name),
-                     "is no law file; give the law.json that a run of law or advise left");
+    throw InputError("advise.law", one_line(name), "is no law file",
+                     "give the law.json that a run of law or advise left");
   }
   try {
     return law_file_of(json);
@@ -237,14 +237,16 @@ LawFile parse_law_file(std::string_view text, const std::string& name) {
 LawFile read_law_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError("advise.law", one_line(path.string()), "a directory; give a law file's path");
+    throw InputError("advise.law", one_line(path.string()), "a directory",
+                     "give a law file's path");
   }
   std::string text;
   try {
     text = text_of_file(path);
   } catch (const std::runtime_error& error) {
     throw InputError("advise.law", one_line(path.string()),
-                     fmt::format("cannot be read ({}); give the path of a law file", error.what()));
+                     fmt::format("cannot be read ({})", error.what()),
+                     "give the path of a law file");
   }
   return parse_law_file(text, path.string());
 }

@@ -31,15 +31,15 @@ FrameShape shape_of(const FitsCube& frames, const Configuration& configuration) 
                          .sets = frames.sets};
   if (configuration.source("sensor.planes").starts_with(Configuration().source("sensor.planes"))) {
     throw InputError("sensor.planes", configuration.value_text("sensor.planes"),
-                     "these are the program's own; give those of your frames, such as "
-                     "--sensor.planes=-120km,120km,-30km,30km");
+                     "these are the program's own",
+                     "give those of your frames, such as --sensor.planes=-120km,120km,-30km,30km");
   }
   const std::size_t planes = configuration.lengths("sensor.planes").size();
   if (shape.planes != planes) {
-    throw InputError("frames.file", file,
-                     fmt::format("the number of its planes is {}, of sensor.planes {}; give the "
-                                 "distance of each plane, in the file's order",
-                                 shape.planes, planes));
+    throw InputError(
+        "frames.file", file,
+        fmt::format("the number of its planes is {}, of sensor.planes {}", shape.planes, planes),
+        "give the distance of each plane, in the file's order");
   }
   return shape;
 }
@@ -117,17 +117,15 @@ void require_light(const Image<double>& frame, std::size_t plane, std::size_t se
   const std::string where = fmt::format("plane {} of set {}", plane + 1, set + 1);
   const std::string& file = configuration.text("frames.file");
   if (!frame.isFinite().any()) {
-    throw InputError("frames.file", file,
-                     fmt::format("{} has no pixel that is not bad; see frames.bad_pixels and "
-                                 "frames.saturation",
-                                 where));
+    throw InputError("frames.file", file, fmt::format("{} has no pixel that is not bad", where),
+                     "see frames.bad_pixels and frames.saturation");
   }
   const double light = frame.isFinite().select(frame, 0.0).sum();
   if (!(light > 0.0)) {
     throw InputError("frames.file", file,
-                     fmt::format("{} has no light: its pixels sum to {:.6g} without the "
-                                 "background; see frames.background",
-                                 where, light));
+                     fmt::format("{} has no light: its pixels sum to {:.6g} without the background",
+                                 where, light),
+                     "see frames.background");
   }
 }
 
@@ -206,10 +204,11 @@ void set_detector_window(Configuration& configuration, const MeasuredFrames& fra
   const std::string key = "detector.window";
   const bool is_default = configuration.source(key) == Configuration().source(key);
   if (!is_default && std::lround(configuration.number(key) * pupil_pixels) != frames.width()) {
-    throw InputError(key, configuration.value_text(key),
-                     fmt::format("the frames are {:.6g} pupil diameters of detector.pupil_pixels "
-                                 "= {} wide; leave it away",
-                                 window, pupil_pixels));
+    throw InputError(
+        key, configuration.value_text(key),
+        fmt::format("the frames are {:.6g} pupil diameters of detector.pupil_pixels = {} wide",
+                    window, pupil_pixels),
+        "leave it away");
   }
   configuration.set(key, fmt::format("{}", window), "by the width of the frames");
 }

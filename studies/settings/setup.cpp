@@ -1,6 +1,8 @@
 #include "studies/settings/setup.hpp"
 
 #include "model/input_error.hpp"
+#include "model/words.hpp"
+#include "objectives/design_field.hpp"
 #include "studies/settings/metric_text.hpp"
 
 #include <algorithm>
@@ -14,14 +16,10 @@
 namespace nlcwfs {
 namespace {
 
-/// One of a choice's values; `values` in the order in which the key lists its words.
+/// A choice's value.
 template <class Value>
-Value choice_of(const Configuration& configuration, std::string_view key,
-                std::initializer_list<std::pair<std::string_view, Value>> values) {
-  for (const auto& [word, value] : values) {
-    if (configuration.choice(key) == word) return value;
-  }
-  throw std::logic_error(fmt::format("{} has a choice without a meaning", key));
+Value choice_of(const Configuration& configuration, std::string_view key) {
+  return value_of_word<Value>(configuration.choice(key)).value();
 }
 
 /// A list of whole numbers, or all of a range.
@@ -40,13 +38,32 @@ std::vector<int> whole_numbers(const Domain& domain) {
   return numbers;
 }
 
-InitialGuess initial_guess_of(const Configuration& configuration, std::string_view key) {
-  return choice_of<InitialGuess>(
-      configuration, key, {{"flat", InitialGuess::flat}, {"centroid", InitialGuess::centroid}});
+/// The value of a design's field; of several lights the first.
+double configured(const Configuration& configuration, const DesignField& field) {
+  const std::string_view key = field.key;
+  if (!field.words.empty()) {
+    const auto word = std::ranges::find(field.words, configuration.choice(key));
+    return double(word - field.words.begin());
+  }
+  if (field.kind == VariableKind::integer) return configuration.integer(key);
+  switch (key_named(key).kind) {
+    case Kind::number_list:
+      return configuration.numbers(key).front();
+    case Kind::length:
+      return configuration.length(key);
+    case Kind::time:
+      return configuration.optional_time(key).value_or(0.0);
+    case Kind::ramp: {
+      const auto [start, end] = configuration.ramp(key);
+      return field.variable == "relaxation_end" ? end : start;
+    }
+    default:
+      return configuration.number(key);
+  }
 }
 
 bool is_matched(const Configuration& configuration) {
-  return configuration.choice("simulation.truth") == "matched";
+  return choice_of<TruthModel>(configuration, "simulation.truth") == TruthModel::matched;
 }
 
 /// What replaces the design's light; nothing where there is one light alone.
@@ -153,7 +170,7 @@ void set_trade_defaults(Configuration& configuration) {
   };
   set("search.plane_count", "2:5");
   if (is_any_set({"search.z1", "search.z2", "search.z3", "search.z4", "search.z5", "search.z6"})) {
-    set("search.layout", "free");
+    set("search.layout", std::string(word_of(Layout::free)));
   }
   set("search.initial_guess", "flat,centroid");
   if (!is_any_set({"search.relaxation_start", "search.relaxation_end"})) {
@@ -186,13 +203,12 @@ std::vector<DesignMetric> trade_objectives_of(const Configuration& configuration
   const std::string& text = configuration.text(key);
   std::vector<DesignMetric> objectives = parse_metrics(key, text);
   if (objectives.size() < 2) {
-    throw InputError(key, text, "at least two metrics; for one there is the command optimize");
+    throw InputError(key, text, "at least two metrics", "for one there is the command optimize");
   }
   for (const DesignMetric& objective : objectives) {
     if (objective.name == "seconds") {
-      throw InputError(key, text,
-                       "seconds are measured, so the search could not be repeated; take "
-                       "model_seconds");
+      throw InputError(key, text, "seconds are measured, so the search could not be repeated",
+                       "take model_seconds");
     }
   }
   require_wind(configuration, {key});
@@ -245,32 +261,12 @@ Seeing seeing_of(const Configuration& configuration, const Telescope& telescope)
 }
 
 SensorDesign design_of(const Configuration& configuration) {
-  const auto [relaxation_start, relaxation_end] = configuration.ramp("reconstruction.relaxation");
-  return {.planes = configuration.lengths("sensor.planes"),
-          .detector = {.pupil_pixels = configuration.integer("detector.pupil_pixels"),
-                       .window = configuration.number("detector.window"),
-                       .photons = configuration.numbers("detector.photons").front(),
-                       .read_noise = configuration.number("detector.read_noise"),
-                       .photon_rate = configuration.numbers("detector.photon_rate").front(),
-                       .exposure = configuration.optional_time("detector.exposure").value_or(0.0)},
-          .reconstruction = {
-              .max_loops = configuration.integer("reconstruction.max_loops"),
-              .tolerance = configuration.length("reconstruction.tolerance"),
-              .stopping = choice_of<StoppingRule>(configuration, "reconstruction.stopping",
-                                                  {{"difference", StoppingRule::difference},
-                                                   {"rms_change", StoppingRule::rms_change}}),
-              .relaxation_start = relaxation_start,
-              .relaxation_end = relaxation_end,
-              .initial_guess = initial_guess_of(configuration, "reconstruction.initial_guess"),
-              .window = configuration.number("reconstruction.window"),
-              .outside = choice_of<OutsideDetector>(
-                  configuration, "reconstruction.outside",
-                  {{"free", OutsideDetector::free}, {"zero", OutsideDetector::zero}}),
-              .oversampling = configuration.integer("reconstruction.oversampling"),
-              .unwrapping = choice_of<UnwrappingMethod>(
-                  configuration, "reconstruction.unwrapping",
-                  {{"quality_guided", UnwrappingMethod::quality_guided},
-                   {"least_squares", UnwrappingMethod::least_squares}})}};
+  SensorDesign design;
+  design.planes = configuration.lengths("sensor.planes");
+  for (const DesignField& field : design_fields()) {
+    if (!field.summary.empty()) field.set(design, configured(configuration, field));
+  }
+  return design;
 }
 
 SensorDesign baseline_of(const Configuration& configuration) {
@@ -280,15 +276,14 @@ SensorDesign baseline_of(const Configuration& configuration) {
   validate_planes("baseline.planes", design.planes, telescope_of(configuration));
   design.reconstruction.relaxation_start = relaxation_start;
   design.reconstruction.relaxation_end = relaxation_end;
-  design.reconstruction.initial_guess = initial_guess_of(configuration, "baseline.initial_guess");
+  design.reconstruction.initial_guess =
+      choice_of<InitialGuess>(configuration, "baseline.initial_guess");
   return design;
 }
 
 DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
   DesignCost cost{
-      .kind = choice_of<CostKind>(
-          configuration, "objective.kind",
-          {{"weighted", CostKind::weighted}, {"error_budget", CostKind::error_budget}}),
+      .kind = choice_of<CostKind>(configuration, "objective.kind"),
       .wfe = pixels_vary ? WavefrontErrorKind::total : WavefrontErrorKind::residual,
       .wfe_scale = configuration.length("objective.wfe_scale"),
       .loop_weight = configuration.number("objective.loop_weight"),
@@ -305,17 +300,10 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
                     .greenwood_frequency =
                         configuration.optional_number("objective.greenwood_frequency"),
                     .wind_speed = configuration.optional_number("objective.wind_speed")},
-      .aggregate = {.kind = choice_of<AggregateKind>(configuration, "objective.aggregate",
-                                                     {{"mean", AggregateKind::mean},
-                                                      {"worst", AggregateKind::worst},
-                                                      {"quantile", AggregateKind::quantile},
-                                                      {"cvar", AggregateKind::cvar}}),
+      .aggregate = {.kind = choice_of<AggregateKind>(configuration, "objective.aggregate"),
                     .level = configuration.number("objective.level")}};
   if (configuration.is_set("objective.wfe")) {
-    cost.wfe = choice_of<WavefrontErrorKind>(configuration, "objective.wfe",
-                                             {{"residual", WavefrontErrorKind::residual},
-                                              {"wrapped", WavefrontErrorKind::wrapped},
-                                              {"total", WavefrontErrorKind::total}});
+    cost.wfe = choice_of<WavefrontErrorKind>(configuration, "objective.wfe");
   }
   if (cost.operation.greenwood_frequency && cost.operation.wind_speed) {
     throw InputError("objective.wind_speed", configuration.value_text("objective.wind_speed"),
@@ -332,8 +320,7 @@ DesignCost cost_of(const Configuration& configuration, bool pixels_vary) {
 DesignSpaceOptions search_space_options_of(const Configuration& configuration, SensorDesign base) {
   DesignSpaceOptions options{
       .base = std::move(base),
-      .layout = choice_of<Layout>(configuration, "search.layout",
-                                  {{"symmetric", Layout::symmetric}, {"free", Layout::free}}),
+      .layout = choice_of<Layout>(configuration, "search.layout"),
       .plane_counts = whole_numbers(*configuration.domain("search.plane_count")),
       .orders = configuration.orders("search.order")};
   for (const VisitingOrder& order : options.orders) {
@@ -365,37 +352,18 @@ DesignSpace search_space_of(const Configuration& configuration, const Telescope&
 
 void set_design(Configuration& configuration, const SensorDesign& design, const DesignSpace& space,
                 std::string_view source) {
-  const auto set = [&](std::string_view key, const std::string& value) {
-    configuration.set(key, value, source);
-  };
-  const ReconstructionOptions& reconstruction = design.reconstruction;
-  set("sensor.planes", fmt::format("{}", fmt::join(design.planes, ",")));
-  if (space.decides("pupil_pixels")) {
-    set("detector.pupil_pixels", fmt::format("{}", design.detector.pupil_pixels));
-  }
-  if (space.decides("detector_window")) {
-    set("detector.window", fmt::format("{}", design.detector.window));
-  }
-  if (space.decides("exposure")) {
-    set("detector.exposure", fmt::format("{}", design.detector.exposure));
-  }
-  if (space.decides("reconstruction_window")) {
-    set("reconstruction.window", fmt::format("{}", reconstruction.window));
-  }
-  if (space.decides("relaxation") || space.decides("relaxation_start") ||
-      space.decides("relaxation_end")) {
-    set("reconstruction.relaxation",
-        fmt::format("{}:{}", reconstruction.relaxation_start, reconstruction.relaxation_end));
-  }
-  if (space.decides("initial_guess")) {
-    set("reconstruction.initial_guess",
-        reconstruction.initial_guess == InitialGuess::flat ? "flat" : "centroid");
-  }
-  if (space.decides("reconstruction_oversampling")) {
-    set("reconstruction.oversampling", fmt::format("{}", reconstruction.oversampling));
-  }
-  if (space.decides("tolerance")) {
-    set("reconstruction.tolerance", fmt::format("{}", reconstruction.tolerance));
+  configuration.set("sensor.planes", fmt::format("{}", fmt::join(design.planes, ",")), source);
+  for (const DesignField& field : design_properties()) {
+    if (!space.decides(field.variable)) continue;
+    const ReconstructionOptions& reconstruction = design.reconstruction;
+    const double value = field.get(design);
+    configuration.set(
+        field.key,
+        key_named(field.key).kind == Kind::ramp
+            ? fmt::format("{}:{}", reconstruction.relaxation_start, reconstruction.relaxation_end)
+        : field.words.empty() ? fmt::format("{}", value)
+                              : std::string(field.words[static_cast<std::size_t>(value)]),
+        source);
   }
 }
 
@@ -409,9 +377,7 @@ LightSource light_source_of(const Configuration& configuration) {
       .bands = configuration.bands("source.bands"),
       .is_split = configuration.choice("source.division") == "split",
       .wavelengths = configuration.integer("source.wavelengths"),
-      .aberration = choice_of<ChromaticAberration>(
-          configuration, "source.aberration",
-          {{"path", ChromaticAberration::path}, {"phase", ChromaticAberration::phase}})};
+      .aberration = choice_of<ChromaticAberration>(configuration, "source.aberration")};
   if (configuration.is_set("source.weights")) {
     source.weights = configuration.numbers("source.weights");
   }
@@ -419,16 +385,11 @@ LightSource light_source_of(const Configuration& configuration) {
 }
 
 Precision precision_of(const Configuration& configuration, std::string_view key) {
-  return choice_of<Precision>(
-      configuration, key,
-      {{"double", Precision::double_precision}, {"single", Precision::single_precision}});
+  return choice_of<Precision>(configuration, key);
 }
 
 SimulationOptions simulation_options_of(const Configuration& configuration) {
-  return {.truth = choice_of<TruthModel>(configuration, "simulation.truth",
-                                         {{"extended", TruthModel::extended},
-                                          {"matched", TruthModel::matched},
-                                          {"periodic", TruthModel::periodic}}),
+  return {.truth = choice_of<TruthModel>(configuration, "simulation.truth"),
           .precision = precision_of(configuration, "simulation.precision"),
           .noise_seed = configuration.seed("screens.seed"),
           .source = light_source_of(configuration),

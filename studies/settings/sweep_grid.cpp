@@ -47,8 +47,7 @@ class GridBuilder {
 GridBuilder::GridBuilder(const Configuration& configuration, SensorDesign base)
     : configuration_(configuration),
       options_{.base = std::move(base),
-               .layout = configuration.choice("sweep.layout") == "free" ? Layout::free
-                                                                        : Layout::symmetric,
+               .layout = value_of_word<Layout>(configuration.choice("sweep.layout")).value(),
                .plane_counts = {},
                .section = "sweep"},
       pairs_(symmetric_planes(options_.base.planes)) {}
@@ -131,7 +130,7 @@ void GridBuilder::set_orders() {
     } else if (std::ranges::count(orders, static_cast<std::size_t>(planes), &VisitingOrder::size) ==
                0) {
       throw InputError("sweep.order", configuration_.value_text("sweep.order"),
-                       fmt::format("has no order of {} planes; add one, or take all", planes));
+                       fmt::format("has no order of {} planes", planes), "add one, or take all");
     }
   }
   for (const VisitingOrder& order : orders) {
@@ -163,8 +162,8 @@ void GridBuilder::refuse_missing(std::string_view key, std::string_view what) co
                                  "sweep.layout = free",
                                  what, key));
   }
-  throw InputError(key, "not set",
-                   fmt::format("sensor.planes has no such {}; give one or more", what));
+  throw InputError(key, "not set", fmt::format("sensor.planes has no such {}", what),
+                   "give one or more");
 }
 
 }  // namespace

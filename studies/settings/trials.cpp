@@ -161,8 +161,8 @@ DesignTrial trial_of(Setup& setup, const ScreenSource& source, Precision precisi
   // Before the screens, which may take long.
   (void)setup.simulated();
   if (!source.file.empty() && setup.seeings.size() > 1) {
-    throw InputError("screens.file", source.file,
-                     "its screens have one seeing; give one value of the section seeing");
+    throw InputError("screens.file", source.file, "its screens have one seeing",
+                     "give one value of the section seeing");
   }
   if (source.file.empty()) {
     require_memory("screens.count", std::to_string(source.count),

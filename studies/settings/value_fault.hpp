@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/settings/configuration.hpp"
+#include "studies/settings/configuration_key.hpp"
 
 #include <string>
 #include <string_view>

@@ -423,11 +423,11 @@ TEST(DesignKey, TellsDesignsApartToSevenDigits) {
             key_of({-47e3, 47e3, -180e3 - 1e-5, 180e3 + 1e-5}));
   EXPECT_NE(key_of({-47e3, 47e3, -180e3, 180e3}), key_of({47e3, -47e3, -180e3, 180e3}));
   EXPECT_NE(key_of({-47e3, 47e3, -180e3, 180e3}), key_of({-47e3, 47e3, -180e3 - 1, 180e3 + 1}));
-  for (const DesignProperty& property : design_properties()) {
+  for (const DesignField& property : design_properties()) {
     SensorDesign design;
     const std::string before = design_key(design);
     property.set(design, property.get(design) + 1.0);
-    EXPECT_NE(design_key(design), before) << property.name;
+    EXPECT_NE(design_key(design), before) << property.variable;
   }
 
   // The pairs exchanged: another point, and the same planes.
