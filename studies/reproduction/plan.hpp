@@ -1,13 +1,19 @@
+// The runs that a reproduction is made of, as its figures ask for them.
 #pragma once
 
+#include "studies/reproduction/study_setup.hpp"
 #include "studies/settings/configuration.hpp"
 
-#include <array>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace nlcwfs {
+
+/// Keys and values.
+using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// One run of a command that a reproduction is made of.
 struct PlannedRun {
@@ -16,69 +22,57 @@ struct PlannedRun {
   Configuration configuration;  ///< all of its keys
 };
 
-/// What a reproduction may have, as reproduce.figures names it.
-inline constexpr std::array<std::string_view, 9> reproduced_figures{
-    "3", "4", "5", "6", "7", "8", "scaling", "response", "numerics"};
-
-/// In which of two set-ups a study is run.
-enum class StudySetup {
-  paper,    ///< the paper's: data on the reconstruction's own grid, rms_change
-  extended  ///< data on an extended grid, difference
-};
-/// Both of them.
-inline constexpr std::array setups{StudySetup::paper, StudySetup::extended};
-/// As names of runs have it.
-std::string_view to_string(StudySetup setup);
-
-/// D/r0 of the maps of figure 3.
-inline constexpr std::array map_ratios{4, 6, 8};
-/// D/r0 of the curves of figure 6.
-inline constexpr std::array sampling_ratios{4, 6, 8, 10};
-
-/// A row of Table 1 of the paper, with the ends of its bands rounded up to whole nm: 500-549 is
-/// 500nm:550nm, whose middle is the paper's 525 nm. For P2 of the wide band the paper prints
-/// 500-69; it can only be 500-699.
-struct PaperBand {
-  std::string_view name;   ///< in names of runs
-  std::string_view bands;  ///< as source.bands; empty = one wavelength
-  int wavelengths;         ///< per plane
-};
-/// The rows of the table, and light of one wavelength.
-inline constexpr std::array<PaperBand, 4> paper_bands{
-    {{"monochromatic", "", 1},
-     {"narrow", "500nm:550nm,550nm:600nm,600nm:650nm,650nm:700nm", 25},
-     {"medium", "400nm:500nm,500nm:600nm,600nm:700nm,700nm:800nm", 20},
-     {"wide", "300nm:500nm,500nm:700nm,700nm:900nm,900nm:1100nm", 40}}};
-
-/// A telescope that the paper's design is moved to, or a change of the numerics.
-struct NamedSettings {
-  std::string name;                                           ///< in names of runs
-  std::vector<std::pair<std::string, std::string>> settings;  ///< key, value
-};
-/// The telescopes that the paper's design is moved to.
-const std::vector<NamedSettings>& scaled_telescopes();
-/// What the numerics decide: settings that are laid over the paper's.
-/// @param screens  of the reproduction; two variants have more
-std::vector<NamedSettings> numerical_variants(int screens);
-/// The numbers of the paper that are looked at in each of these: settings, the later with evaluate
-/// but for "medium-band", which takes convergence.
-const std::vector<NamedSettings>& numerical_probes();
+/// Of the paper's maps and its fifth plane, m.
+inline constexpr double farthest = 250e3;
 
 /// How many times as many wavefronts the designs at the paper's distances are evaluated on.
 inline constexpr int more_screens = 16;
 
-/// Figures that a configuration asks for.
-/// @throws InputError where reproduce.figures names one that is not known
-std::vector<std::string> figures_of(const Configuration& configuration);
+/// As a list in a configuration.
+std::string list_text(const std::vector<double>& values);
+
+/// What figures add their runs to; they share those that have the same folder.
+class Plan {
+ public:
+  /// @param given    what the user configured, which outlives the plan
+  /// @param figures  that it asks for
+  /// @throws InputError where it has another telescope, seeing, sensor or sweep than the paper's
+  Plan(const Configuration& given, std::vector<std::string> figures);
+
+  /// What the user configured.
+  const Configuration& given() const { return given_; }
+
+  /// Whether a figure is asked for.
+  bool has(std::string_view figure) const;
+
+  /// The paper's planes in one of the two set-ups.
+  Configuration base(StudySetup setup) const;
+
+  /// Adds a run unless it is there already.
+  void add(const std::string& folder, const std::string& command, Configuration configuration,
+           const Settings& values);
+
+  /// The sweep of near and far pair at one D/r0.
+  /// @param order  in which -near, near, -far, far are visited, such as "1234"
+  void add_map(const std::string& folder, StudySetup setup, int ratio, const std::string& order);
+
+  /// The paper's planes, or others at its distances, one for one.
+  /// @param papers_places  of the paper's planes, counted from 0
+  void add_design(StudySetup setup, std::string_view name,
+                  const std::vector<std::size_t>& papers_places);
+
+  /// All of them, in the order in which they were added.
+  std::vector<PlannedRun> runs() && { return std::move(runs_); }
+
+ private:
+  const Configuration& given_;
+  std::vector<std::string> figures_;
+  std::set<std::string> folders_;
+  std::vector<PlannedRun> runs_;
+};
 
 /// How much a run takes beside others, for predictions of the time left: samples that Fourier
 /// transforms see, in 1e9. Loops are guessed, and the verification of a sweep is left out.
 double work_of(const PlannedRun& run);
-
-/// Everything that these need, in the order of the paper; figures share runs.
-/// @param configuration  gives the sizes (section reproduce), the screens and the search's
-///                       precision; the paper's set-up is laid over its defaults
-/// @throws InputError where it has another telescope, seeing, sensor or sweep than the paper's
-std::vector<PlannedRun> planned_runs(const Configuration& configuration);
 
 }  // namespace nlcwfs

@@ -10,8 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double km = 1e3;
-
 /// Axes of one value stand around the two.
 const Json& element(const Json& matrix, std::size_t near, std::size_t far) {
   const Json* rows = &matrix;
@@ -23,36 +21,39 @@ bool are_clear(double near, double far) { return far >= 1.5 * near; }
 
 }  // namespace
 
-PlaneMap::PlaneMap(const Json& grid) : grid_(grid) {
+std::vector<double> axis_values(const Json& grid, std::string_view name) {
   for (const Json& axis : grid.at("axes")) {
-    if (axis.at("name") == "z_near") near_ = axis.at("values").get<std::vector<double>>();
-    if (axis.at("name") == "z_far") far_ = axis.at("values").get<std::vector<double>>();
+    if (axis.at("name") == name) return numbers_from_json(axis.at("values"));
   }
+  return {};
 }
 
-double PlaneMap::value(const std::string& figure, std::size_t near, std::size_t far) const {
-  return number_from_json(element(grid_.at(figure), near, far));
+PlaneMap::PlaneMap(const Json& grid)
+    : grid_(grid), near_(axis_values(grid, "z_near")), far_(axis_values(grid, "z_far")) {}
+
+double PlaneMap::value(const std::string& metric, std::size_t near, std::size_t far) const {
+  return number_from_json(element(grid_.at(metric), near, far));
 }
 
-MeanAndError PlaneMap::mean(const std::string& figure, std::size_t near, std::size_t far) const {
-  return {value(figure, near, far),
-          number_from_json(element(grid_.at("standard_error").at(figure), near, far))};
+MeanAndError PlaneMap::mean(const std::string& metric, std::size_t near, std::size_t far) const {
+  return {value(metric, near, far),
+          number_from_json(element(grid_.at("standard_error").at(metric), near, far))};
 }
 
-std::vector<double> PlaneMap::values_of(const std::string& figure, const Condition& wanted) const {
+std::vector<double> PlaneMap::values_of(const std::string& metric, const Condition& wanted) const {
   std::vector<double> values;
   for (std::size_t i = 0; i < near_.size(); ++i) {
     for (std::size_t k = 0; k < far_.size(); ++k) {
       if (!wanted(near_[i], far_[k])) continue;
-      const double here = value(figure, i, k);
+      const double here = value(metric, i, k);
       if (std::isfinite(here)) values.push_back(here);
     }
   }
   return values;
 }
 
-double PlaneMap::median_at_near(const std::string& figure, std::size_t near) const {
-  return quantile(values_of(figure,
+double PlaneMap::median_at_near(const std::string& metric, std::size_t near) const {
+  return quantile(values_of(metric,
                             [&](double z_near, double z_far) {
                               return z_near == near_[near] && z_far >= 100 * km &&
                                      are_clear(z_near, z_far);

@@ -1,3 +1,4 @@
+// A sweep over the distances of two pairs of planes, read.
 #pragma once
 
 #include "model/statistics.hpp"
@@ -6,13 +7,20 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace nlcwfs {
 
-/// A sweep's figures over the distances of the near and the far pair, in m. What else the grid has
+/// A kilometre, m.
+inline constexpr double km = 1e3;
+
+/// The values of an axis of a sweep's grid; none where it has no such axis.
+std::vector<double> axis_values(const nlohmann::ordered_json& grid, std::string_view name);
+
+/// A sweep's metrics over the distances of the near and the far pair, in m. What else the grid has
 /// must have one value each.
 class PlaneMap {
  public:
@@ -27,17 +35,17 @@ class PlaneMap {
   /// Distances of the far pair, m.
   const std::vector<double>& far() const { return far_; }
 
-  /// A figure as the grid names it, "residual_wfe_nm", ...; NaN where the map has no design.
-  double value(const std::string& figure, std::size_t near, std::size_t far) const;
+  /// A metric as the grid names it, "residual_wfe_nm", ...; NaN where the map has no design.
+  double value(const std::string& metric, std::size_t near, std::size_t far) const;
   /// The same with its standard error.
-  MeanAndError mean(const std::string& figure, std::size_t near, std::size_t far) const;
+  MeanAndError mean(const std::string& metric, std::size_t near, std::size_t far) const;
 
   /// Its values at the designs that are wanted and that the map has.
-  std::vector<double> values_of(const std::string& figure, const Condition& wanted) const;
+  std::vector<double> values_of(const std::string& metric, const Condition& wanted) const;
 
-  /// A figure's median over the far distances from 100 km on that are clear of the near one: at
+  /// A metric's median over the far distances from 100 km on that are clear of the near one: at
   /// least 1.5 times as far. NaN where there is none.
-  double median_at_near(const std::string& figure, std::size_t near) const;
+  double median_at_near(const std::string& metric, std::size_t near) const;
 
   /// The near distance at which residual and loops are low together: where median_at_near of
   /// residual WFE / 10 nm + loops / 10, the program's own default cost, is least. Few loops alone

@@ -1,7 +1,8 @@
+// What a reproduction leaves beside its runs.
 #pragma once
 
 #include "results/archive/output_folder.hpp"
-#include "studies/reproduction/paper_claims.hpp"
+#include "studies/reproduction/claim.hpp"
 #include "studies/reproduction/reproduced_runs.hpp"
 
 #include <string>
@@ -9,12 +10,9 @@
 
 namespace nlcwfs {
 
-/// "11 reproduced, 6 reproduced in trend, 4 not reproduced"
-std::string count_text(const std::vector<Claim>& claims, StudySetup setup);
-
 /// Writes what a reproduction leaves beside its runs, so that the folder without them is a whole:
 /// report.md, claims.csv, and the figures as pictures, CSV and FITS.
-/// @param figures  of reproduced_figures
+/// @param figures  names of those that were run
 /// @param screens  of the reproduction
 /// @return a line for each picture that there is not, with the reason
 /// @throws std::runtime_error with path and cause

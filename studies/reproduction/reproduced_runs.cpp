@@ -43,12 +43,9 @@ std::vector<double> ReproducedRuns::screens(const std::string& run,
   return values;
 }
 
-std::string SetupRuns::path(std::string_view figure, const std::string& run) const {
-  return fmt::format("{}/{}{}{}", figure, to_string(setup_), run.empty() ? "" : "-", run);
-}
-
-const Json& SetupRuns::summary(std::string_view figure, const std::string& run) const {
-  return runs_.summary(path(figure, run));
+MeanAndError mean_difference(std::vector<double> values, const std::vector<double>& others) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= others.at(i);
+  return mean_and_standard_error(values);
 }
 
 PlaneMap SetupRuns::map(int ratio) const {
@@ -63,17 +60,9 @@ MeanAndError SetupRuns::design(const std::string& name, const char* metric) cons
   return mean_from_json(summary("designs", name).at("design").at("performance").at(metric));
 }
 
-MeanAndError SetupRuns::design_difference(const std::string& name, const std::string& other,
-                                          const char* metric) const {
-  std::vector<double> differences = screens("designs", name, metric);
-  const std::vector<double> others = screens("designs", other, metric);
-  for (std::size_t i = 0; i < differences.size(); ++i) differences[i] -= others.at(i);
-  return mean_and_standard_error(differences);
-}
-
-std::vector<double> SetupRuns::screens(std::string_view figure, const std::string& run,
-                                       const std::string& metric) const {
-  return runs_.screens(path(figure, run), metric);
+MeanAndError SetupRuns::above_four_planes(const std::string& name, const char* metric) const {
+  return mean_difference(screens("designs", name, metric),
+                         screens("designs", "four-planes", metric));
 }
 
 }  // namespace nlcwfs

@@ -1,7 +1,8 @@
+// The finished runs of a reproduction, as its figures and claims ask for them.
 #pragma once
 
-#include "studies/reproduction/plan.hpp"
 #include "studies/reproduction/plane_map.hpp"
+#include "studies/reproduction/study_setup.hpp"
 
 #include <filesystem>
 #include <map>
@@ -31,14 +32,22 @@ class ReproducedRuns {
   mutable std::map<std::string, nlohmann::ordered_json> read_;
 };
 
+/// By how much values are above others of the same wavefronts.
+MeanAndError mean_difference(std::vector<double> values, const std::vector<double>& others);
+
 /// The runs of one set-up, as its claims ask for them.
 class SetupRuns {
  public:
   /// The finished runs of one set-up.
   SetupRuns(const ReproducedRuns& runs, StudySetup setup) : runs_(runs), setup_(setup) {}
 
+  /// Which one that is.
+  StudySetup setup() const { return setup_; }
+
   /// @param run  below its figure, without the set-up; empty where the set-up is all of its name
-  const nlohmann::ordered_json& summary(std::string_view figure, const std::string& run) const;
+  const nlohmann::ordered_json& summary(std::string_view figure, std::string_view run) const {
+    return runs_.summary(run_folder(figure, setup_, run));
+  }
 
   /// Of four planes.
   PlaneMap map(int ratio) const;
@@ -47,17 +56,16 @@ class SetupRuns {
 
   /// The mean of a design at the paper's distances, D/r0 = 4.
   MeanAndError design(const std::string& name, const char* metric) const;
-  /// By how much one of them is above another, wavefront by wavefront.
-  MeanAndError design_difference(const std::string& name, const std::string& other,
-                                 const char* metric) const;
+  /// By how much one of them is above that of four planes, wavefront by wavefront.
+  MeanAndError above_four_planes(const std::string& name, const char* metric) const;
 
   /// A metric of each wavefront, of an evaluate or a convergence.
-  std::vector<double> screens(std::string_view figure, const std::string& run,
-                              const std::string& metric) const;
+  std::vector<double> screens(std::string_view figure, std::string_view run,
+                              const std::string& metric) const {
+    return runs_.screens(run_folder(figure, setup_, run), metric);
+  }
 
  private:
-  std::string path(std::string_view figure, const std::string& run) const;
-
   const ReproducedRuns& runs_;
   StudySetup setup_;
 };

@@ -3,7 +3,7 @@
 // (results/reference/README.md).
 
 #include "results/tables/csv_table.hpp"
-#include "studies/reproduction/plan.hpp"
+#include "studies/reproduction/figures.hpp"
 #include "studies/settings/trials.hpp"
 #include "tests/paths.hpp"
 

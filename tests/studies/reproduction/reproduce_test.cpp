@@ -1,6 +1,4 @@
-#include "studies/reproduction/paper_claims.hpp"
-#include "studies/reproduction/plan.hpp"
-#include "studies/reproduction/reproduced_runs.hpp"
+#include "studies/reproduction/figures.hpp"
 #include "tests/message_of.hpp"
 #include "tests/studies/program.hpp"
 
@@ -97,6 +95,12 @@ TEST(ReproductionPlan, TheFifthPlaneIsAtEachDistanceOnce) {
   }
 }
 
+TEST(ReproductionPlan, HasAllFiguresByDefault) {
+  std::vector<std::string> names;
+  for (const PaperFigure& figure : paper_figures()) names.emplace_back(figure.name);
+  EXPECT_THAT(figures_of(Configuration()), testing::UnorderedElementsAreArray(names));
+}
+
 TEST(ReproductionPlan, RefusesFiguresThatThePaperDoesNotHave) {
   EXPECT_THAT(message_of([] { (void)runs_of("3,9"); }),
               AllOf(HasSubstr("reproduce.figures"), HasSubstr("3, 4, 5")));
@@ -106,24 +110,20 @@ using Claims = ScratchFolder;
 
 /// The residual of the design moved to each telescope, in waves.
 void write_scaling(double last) {
-  for (const StudySetup setup : setups) {
-    for (const NamedSettings& telescope : scaled_telescopes()) {
-      Configuration configuration;
-      for (const auto& [key, value] : telescope.settings) configuration.set(key, value, "here");
-      const bool is_last = &telescope == &scaled_telescopes().back();
-      const double residual =
-          (is_last ? last : 0.01) * configuration.length("telescope.wavelength");
-      const std::string folder = fmt::format("scaling/{}-{}", to_string(setup), telescope.name);
-      std::filesystem::create_directories(folder);
-      std::ofstream(folder + "/summary.json") << Json{
-          {"config", {{"telescope.wavelength", configuration.value_text("telescope.wavelength")}}},
-          {"design",
-           {{"performance",
-             {{"residual_wfe_nm", {{"mean", residual}, {"standard_error", 0.0}}},
-              {"loops", {{"mean", 5.0}, {"standard_error", 0.0}}}}}}}};
-    }
+  for (const PlannedRun& run : runs_of("scaling")) {
+    const double residual = (run.folder.ends_with("8.2m-1650nm") ? last : 0.01) *
+                            run.configuration.length("telescope.wavelength");
+    std::filesystem::create_directories(run.folder);
+    std::ofstream(run.folder + "/summary.json")
+        << Json{{"config",
+                 {{"telescope.wavelength", run.configuration.value_text("telescope.wavelength")}}},
+                {"design",
+                 {{"performance",
+                   {{"residual_wfe_nm", {{"mean", residual}, {"standard_error", 0.0}}},
+                    {"loops", {{"mean", 5.0}, {"standard_error", 0.0}}}}}}}};
   }
 }
+
 ClaimVerdict scaling_verdict() {
   const std::vector<Claim> claims = checked_claims(ReproducedRuns("."), {"scaling"});
   EXPECT_EQ(claims.size(), 1u);

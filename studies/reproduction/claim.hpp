@@ -1,14 +1,14 @@
+// A claim of the paper and what it has come to.
 #pragma once
 
-#include "studies/reproduction/plan.hpp"
+#include "studies/reproduction/study_setup.hpp"
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nlcwfs {
-
-class ReproducedRuns;
 
 /// What a claim of the paper has come to.
 enum class ClaimVerdict {
@@ -17,7 +17,7 @@ enum class ClaimVerdict {
   not_reproduced,
   open  ///< the runs do not have what it takes to tell
 };
-/// As reports have it.
+/// As report.md has it.
 std::string_view to_string(ClaimVerdict verdict);
 
 /// What one set-up says of a claim.
@@ -29,15 +29,17 @@ struct ClaimFinding {
 
 /// A sentence of the paper that can be checked.
 struct Claim {
-  std::string figure;    ///< of reproduced_figures, whose runs it is checked on
+  std::string figure;    ///< whose runs it is checked on
   std::string sentence;  ///< in our words
   std::string papers;    ///< its number
   std::string rule;      ///< what counts as reproduced, and what as its trend
   std::map<StudySetup, ClaimFinding> findings;  ///< of each set-up
 };
 
-/// The claims that the figures' runs can check, in the order of the paper.
-std::vector<Claim> checked_claims(const ReproducedRuns& runs,
-                                  const std::vector<std::string>& figures);
+/// "11 reproduced, 6 reproduced in trend, 4 not reproduced"
+std::string count_text(const std::vector<Claim>& claims, StudySetup setup);
+
+/// All about them as comma-separated values, a row each.
+std::string claims_table(const std::vector<Claim>& claims);
 
 }  // namespace nlcwfs

@@ -4,27 +4,44 @@
 
 const setupTitles = {paper: "the paper's set-up", extended: "extended truth, rule difference"};
 
+/** The parts of the page: title, how the names of its tables begin, and what shows these. */
+const reproducedParts = [
+  ["Claims", "claims.csv", showFirst(showClaims)],
+  ["Figure 3: four planes", "figure-3-", showPaperMaps],
+  ["Figure 4: three planes", "figure-4-", showPaperMaps],
+  ["Figure 5: a fifth plane", "figure-5-", showEach(fifthPlane)],
+  ["Figure 6: sampling", "figure-6-", showEach(sampling)],
+  ["Figure 7: loops with a medium band", "figure-7-", showEach(convergenceChart)],
+  ["Figure 8: bands", "figure-8-", showEach(bands)],
+  ["Response to single spatial frequencies", "response.csv", showFirst((part, response) => {
+    responseCharts(part, response);
+    pairsExplorer(part, response);
+  })],
+  ["The same with photon noise", "response-photons.csv", showFirst(responseCharts)],
+  ["What the numerics decide", "numerics.csv", showFirst(showNumerics)],
+];
+
 function showReproduction() {
-  const claims = data.tables?.["claims.csv"];
-  if (claims?.claim) section("Claims", (part) => showClaims(part, claims));
-  showPaperMaps("3", "Figure 3: four planes");
-  showPaperMaps("4", "Figure 4: three planes");
-  showPaperCurves("5", "Figure 5: a fifth plane", fifthPlane);
-  showPaperCurves("6", "Figure 6: sampling", sampling);
-  showPaperCurves("7", "Figure 7: loops with a medium band", (part, columns, caption) =>
-    convergenceChart(part, columns, caption));
-  showPaperCurves("8", "Figure 8: bands", bands);
-  const response = data.tables?.["response.csv"];
-  if (response?.planes) {
-    section("Response to single spatial frequencies", (part) => {
-      responseCharts(part, response);
-      pairsExplorer(part, response);
-    });
+  for (const [title, start, show] of reproducedParts) {
+    const tables = Object.entries(data.tables ?? {})
+      .filter(([name, columns]) => name.startsWith(start) && Object.keys(columns).length > 0)
+      .map(([name, columns]) => [name.slice(start.length, -".csv".length), columns]);
+    if (tables.length > 0) section(title, (part) => show(part, tables));
   }
-  const photons = data.tables?.["response-photons.csv"];
-  if (photons?.planes) section("The same with photon noise", (part) => responseCharts(part, photons));
-  const numerics = data.tables?.["numerics.csv"];
-  if (numerics?.variant) section("What the numerics decide", (part) => showNumerics(part, numerics));
+}
+
+/** Shows the only table of a part. */
+function showFirst(show) {
+  return (part, [[, columns]]) => show(part, columns);
+}
+
+/** Draws each table of a part beside the others, that of the paper's set-up first. */
+function showEach(draw) {
+  return (part, tables) => {
+    const grid = element("div", {className: "side-by-side"});
+    part.append(grid);
+    for (const [name, columns] of tables.reverse()) draw(grid, columns, paperTitle(name));
+  };
 }
 
 /** Every claim of the paper, with filters. */
@@ -62,14 +79,6 @@ function showClaims(part, claims) {
   show();
 }
 
-/** The tables of a figure: [[name behind the figure's number, columns], ...] */
-function paperTables(figure) {
-  const start = `figure-${figure}-`;
-  return Object.entries(data.tables ?? {}).filter(([name]) => name.startsWith(start))
-    .map(([name, columns]) => [name.slice(start.length, -".csv".length), columns])
-    .filter(([, columns]) => Object.keys(columns).length > 0);
-}
-
 /** "paper-4" in words. */
 function paperTitle(name) {
   const [setup, ...rest] = name.split("-");
@@ -78,52 +87,38 @@ function paperTitle(name) {
 }
 
 /** Maps over the distances of two pairs, as the paper draws them: Z_far to the right. */
-function showPaperMaps(figure, title) {
-  const tables = paperTables(figure);
-  if (tables.length === 0) return;
-  section(title, (part) => {
-    const chosen = {name: tables.find(([name]) => name.startsWith("paper"))?.[0] ?? tables[0][0]};
-    const grid = element("div", {className: "side-by-side"});
-    const quantities = {residual_wfe: "residual WFE, nm", loops: "loops"};
-    const made = [];
-    part.append(element("div", {className: "controls"}, menu("Map", tables.map(([name]) =>
-      [name, paperTitle(name)]), chosen.name, (name) => {
-      chosen.name = name;
-      for (const one of made) one.redraw();
-    })), grid);
-    for (const [quantity, quantityTitle] of Object.entries(quantities)) {
-      made.push(chart(grid, "", (theme) => {
-        const columns = tables.find(([name]) => name === chosen.name)[1];
-        const axis = (name) => [...new Set(columns[name])].sort((a, b) => a - b);
-        const near = axis("z_near_m");
-        const far = axis("z_far_m");
-        const matrix = (column) => {
-          const values = near.map(() => far.map(() => null));
-          columns[column].forEach((value, i) => {
-            values[near.indexOf(columns.z_near_m[i])][far.indexOf(columns.z_far_m[i])] = value;
-          });
-          return values;
-        };
-        const column = quantity === "residual_wfe" ? "residual_wfe_nm" : "loops";
-        const errors = quantity === "residual_wfe" ? "residual_wfe_standard_error_nm"
-          : "loops_standard_error";
-        const x = {...drawnAxis({name: "Z far", unit: "m", values: far}), isLog: false};
-        const y = {...drawnAxis({name: "Z near", unit: "m", values: near}), isLog: false};
-        return {data: mapTraces(theme, {x, y, values: matrix(column), errors: matrix(errors),
-          title: quantityTitle}), layout: {xaxis: axisLayout(x), yaxis: axisLayout(y)}};
-      }, 400));
-    }
-  });
-}
-
-function showPaperCurves(figure, title, drawTable) {
-  const tables = paperTables(figure);
-  if (tables.length === 0) return;
-  section(title, (part) => {
-    const grid = element("div", {className: "side-by-side"});
-    part.append(grid);
-    for (const [name, columns] of tables.reverse()) drawTable(grid, columns, paperTitle(name));
-  });
+function showPaperMaps(part, tables) {
+  const chosen = {name: tables.find(([name]) => name.startsWith("paper"))?.[0] ?? tables[0][0]};
+  const grid = element("div", {className: "side-by-side"});
+  const quantities = {residual_wfe: "residual WFE, nm", loops: "loops"};
+  const made = [];
+  part.append(element("div", {className: "controls"}, menu("Map", tables.map(([name]) =>
+    [name, paperTitle(name)]), chosen.name, (name) => {
+    chosen.name = name;
+    for (const one of made) one.redraw();
+  })), grid);
+  for (const [quantity, quantityTitle] of Object.entries(quantities)) {
+    made.push(chart(grid, "", (theme) => {
+      const columns = tables.find(([name]) => name === chosen.name)[1];
+      const axis = (name) => [...new Set(columns[name])].sort((a, b) => a - b);
+      const near = axis("z_near_m");
+      const far = axis("z_far_m");
+      const matrix = (column) => {
+        const values = near.map(() => far.map(() => null));
+        columns[column].forEach((value, i) => {
+          values[near.indexOf(columns.z_near_m[i])][far.indexOf(columns.z_far_m[i])] = value;
+        });
+        return values;
+      };
+      const column = quantity === "residual_wfe" ? "residual_wfe_nm" : "loops";
+      const errors = quantity === "residual_wfe" ? "residual_wfe_standard_error_nm"
+        : "loops_standard_error";
+      const x = {...drawnAxis({name: "Z far", unit: "m", values: far}), isLog: false};
+      const y = {...drawnAxis({name: "Z near", unit: "m", values: near}), isLog: false};
+      return {data: mapTraces(theme, {x, y, values: matrix(column), errors: matrix(errors),
+        title: quantityTitle}), layout: {xaxis: axisLayout(x), yaxis: axisLayout(y)}};
+    }, 400));
+  }
 }
 
 function fifthPlane(part, columns, caption) {
