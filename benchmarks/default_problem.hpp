@@ -1,3 +1,4 @@
+// The search that the program makes unless told otherwise, to be timed.
 #pragma once
 
 #include "model/simulation.hpp"

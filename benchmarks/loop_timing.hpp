@@ -1,3 +1,4 @@
+// Times the loop of a design's reconstruction.
 #pragma once
 
 #include "model/gerchberg_saxton.hpp"

@@ -5,6 +5,9 @@ if(NLCWFS_WARNINGS_AS_ERRORS)
   list(APPEND NLCWFS_WARNINGS -Werror)
 endif()
 
+# For code without hot loops, which takes long to compile.
+set(NLCWFS_LIGHT_OPTIMIZATION $<$<CONFIG:Release>:-O1>)
+
 function(nlcwfs_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(nlcwfs_${name} STATIC ${ARG_SOURCES})

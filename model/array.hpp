@@ -1,3 +1,4 @@
+// Images and complex fields on square grids.
 #pragma once
 
 #include <complex>

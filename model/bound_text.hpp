@@ -1,3 +1,4 @@
+// Bounds as messages show them: rounded so that they are allowed themselves.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Light becomes a plane's image: pixels, window, photons and noise.
 #include "model/detector.hpp"
 
 #include "model/grid_width.hpp"

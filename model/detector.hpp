@@ -1,3 +1,4 @@
+// Light becomes a plane's image: pixels, window, photons and noise.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Fourier transforms of lines and squares, through FFTW.
 #include "model/fourier_transform.hpp"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// Fourier transforms of lines and squares, through FFTW.
 #pragma once
 
 #include "model/array.hpp"

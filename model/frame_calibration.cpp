@@ -1,3 +1,4 @@
+// Measured frames become images: background, bad pixels, saturation, brightness.
 #include "model/frame_calibration.hpp"
 
 #include <algorithm>

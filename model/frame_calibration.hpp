@@ -1,3 +1,4 @@
+// Measured frames become images: background, bad pixels, saturation, brightness.
 #pragma once
 
 #include "model/array.hpp"

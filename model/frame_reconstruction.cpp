@@ -1,3 +1,4 @@
+// Wavefronts are reconstructed from measured frames, and held against them.
 #include "model/frame_reconstruction.hpp"
 
 #include <algorithm>

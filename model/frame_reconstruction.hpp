@@ -1,3 +1,4 @@
+// Wavefronts are reconstructed from measured frames, and held against them.
 #pragma once
 
 #include "model/gerchberg_saxton.hpp"

@@ -1,3 +1,4 @@
+// Single spatial frequencies are put before a sensor, beside what theory lets expect.
 #include "model/frequency_response.hpp"
 
 #include "model/random_stream.hpp"

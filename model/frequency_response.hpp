@@ -1,3 +1,4 @@
+// Single spatial frequencies are put before a sensor, beside what theory lets expect.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// A field is propagated on the reconstruction's periodic grid.
 #include "model/fresnel_propagator.hpp"
 
 #include "model/line_kernels.hpp"

@@ -1,3 +1,4 @@
+// A field is propagated on the reconstruction's periodic grid.
 #pragma once
 
 #include "model/array.hpp"

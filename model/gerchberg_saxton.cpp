@@ -1,3 +1,4 @@
+// The loop: a wavefront is reconstructed from the images of several planes.
 #include "model/gerchberg_saxton.hpp"
 
 #include "model/detector.hpp"

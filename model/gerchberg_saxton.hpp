@@ -1,3 +1,4 @@
+// The loop: a wavefront is reconstructed from the images of several planes.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Widths that grids may have: bounded, and with small prime factors.
 #include "model/grid_width.hpp"
 
 #include "model/input_error.hpp"

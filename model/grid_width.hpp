@@ -1,3 +1,4 @@
+// Widths that grids may have: bounded, and with small prime factors.
 #pragma once
 
 #include <string_view>

@@ -1,3 +1,4 @@
+// Noise-free images are kept for the next design that reads the same plane.
 #include "model/image_cache.hpp"
 
 namespace nlcwfs {

@@ -1,3 +1,4 @@
+// Noise-free images are kept for the next design that reads the same plane.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Gaps of an image are filled from around them.
 #include "model/image_gaps.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Gaps of an image are filled from around them.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// What is wrong with a user's input becomes one line.
 #pragma once
 
 #include <stdexcept>

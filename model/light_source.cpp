@@ -1,3 +1,4 @@
+// Bands of light become wavelengths with weights, for each plane.
 #include "model/light_source.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Bands of light become wavelengths with weights, for each plane.
 #pragma once
 
 #include <compare>

@@ -1,3 +1,4 @@
+// The arithmetic of the loop on lines of samples, written to be vectorized.
 #include "model/line_kernels.hpp"
 
 #include <algorithm>

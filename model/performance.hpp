@@ -1,3 +1,4 @@
+// How a design did on its wavefronts, and which figures of that are reported.
 #pragma once
 
 #include "model/array.hpp"

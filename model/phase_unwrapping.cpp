@@ -1,3 +1,4 @@
+// A wrapped phase becomes a continuous one.
 #include "model/phase_unwrapping.hpp"
 
 #include <algorithm>

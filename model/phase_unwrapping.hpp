@@ -1,3 +1,4 @@
+// A wrapped phase becomes a continuous one.
 #pragma once
 
 #include "model/array.hpp"

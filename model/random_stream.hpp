@@ -1,3 +1,4 @@
+// Random numbers that are the same on every platform.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Where the samples of a grid stand.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// A phase is brought to another number of samples.
 #include "model/screen_resampling.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// A phase is brought to another number of samples.
 #pragma once
 
 #include "model/array.hpp"

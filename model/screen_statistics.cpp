@@ -1,3 +1,4 @@
+// Variances and structure functions of phase screens.
 #include "model/screen_statistics.hpp"
 
 #include <algorithm>

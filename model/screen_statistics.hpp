@@ -1,3 +1,4 @@
+// Variances and structure functions of phase screens.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// The turbulence that a telescope looks through, and the theory of its phase.
 #pragma once
 
 #include <optional>

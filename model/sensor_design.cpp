@@ -1,3 +1,4 @@
+// What a sensor is: planes, detector and reconstruction.
 #include "model/sensor_design.hpp"
 
 #include "model/array.hpp"

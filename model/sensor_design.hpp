@@ -1,3 +1,4 @@
+// What a sensor is: planes, detector and reconstruction.
 #pragma once
 
 #include "model/detector.hpp"

@@ -1,3 +1,4 @@
+// One design on one set of wavefronts, from the pupil to its performance.
 #include "model/simulation.hpp"
 
 #include "model/bound_text.hpp"

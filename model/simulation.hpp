@@ -1,3 +1,4 @@
+// One design on one set of wavefronts, from the pupil to its performance.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Means, standard errors and quantiles of samples.
 #include "model/statistics.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The telescope, and what diffraction makes of its distances.
 #pragma once
 
 #include <optional>

@@ -1,3 +1,4 @@
+// The light that reaches the detectors: extended, periodic or the reconstruction's own.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Phase screens are drawn whose structure function is exact.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// A reconstruction is held against the truth: wavefront errors and Strehl ratio.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Light is propagated to a window on an infinite plane, where nothing wraps round.
 #include "model/wrap_free_propagator.hpp"
 
 #include "model/fresnel_propagator.hpp"

@@ -1,3 +1,4 @@
+// Light is propagated to a window on an infinite plane, where nothing wraps round.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Costs under several conditions become one.
 #include "objectives/cost_aggregate.hpp"
 
 #include <algorithm>

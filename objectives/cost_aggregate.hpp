@@ -1,3 +1,4 @@
+// Costs under several conditions become one.
 #pragma once
 
 #include "model/words.hpp"

@@ -1,3 +1,4 @@
+// Two designs are told apart, screen by screen.
 #include "objectives/design_comparison.hpp"
 
 #include <cassert>

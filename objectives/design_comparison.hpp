@@ -1,3 +1,4 @@
+// Two designs are told apart, screen by screen.
 #pragma once
 
 #include "model/statistics.hpp"

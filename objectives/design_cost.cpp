@@ -1,3 +1,4 @@
+// What a design costs: wavefront error, loops, time, penalties and limits.
 #include "objectives/design_cost.hpp"
 
 #include <algorithm>

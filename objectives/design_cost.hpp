@@ -1,3 +1,4 @@
+// What a design costs: wavefront error, loops, time, penalties and limits.
 #pragma once
 
 #include "model/performance.hpp"

@@ -1,3 +1,4 @@
+// The designs of a grid, and which of its points share one.
 #include "objectives/design_grid.hpp"
 
 #include "model/input_error.hpp"

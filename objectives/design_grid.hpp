@@ -1,3 +1,4 @@
+// The designs of a grid, and which of its points share one.
 #pragma once
 
 #include "objectives/design_space.hpp"

@@ -1,3 +1,4 @@
+// Figures of a design that costs, limits and fronts may use.
 #pragma once
 
 #include "model/performance.hpp"

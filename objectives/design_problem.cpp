@@ -1,3 +1,4 @@
+// A design space and its trial become a problem that an optimizer sees.
 #include "objectives/design_problem.hpp"
 
 #include "optimizer/evaluator.hpp"

@@ -1,3 +1,4 @@
+// A design space and its trial become a problem that an optimizer sees.
 #pragma once
 
 #include "objectives/design_metric.hpp"

@@ -1,3 +1,4 @@
+// What a search may choose becomes points, and points become sensors.
 #include "objectives/design_space.hpp"
 
 #include "model/bound_text.hpp"

@@ -1,3 +1,4 @@
+// What a search may choose becomes points, and points become sensors.
 #pragma once
 
 #include "model/sensor_design.hpp"

@@ -1,3 +1,4 @@
+// A design is tried: simulated under each condition, judged and remembered.
 #pragma once
 
 #include "model/performance.hpp"

@@ -1,3 +1,4 @@
+// How far each variable of the best design may move.
 #pragma once
 
 #include "objectives/design_space.hpp"

@@ -1,3 +1,4 @@
+// A law is fitted to the best designs at several seeings.
 #include "objectives/scaling_law.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// A law is fitted to the best designs at several seeings.
 #pragma once
 
 #include "model/statistics.hpp"

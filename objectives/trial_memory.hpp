@@ -1,3 +1,4 @@
+// What is asked before a design is simulated again.
 #pragma once
 
 #include "model/performance.hpp"

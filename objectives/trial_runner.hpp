@@ -1,3 +1,4 @@
+// Who simulates the screens of trials elsewhere.
 #pragma once
 
 #include "model/performance.hpp"

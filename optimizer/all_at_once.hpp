@@ -1,3 +1,4 @@
+// Bodies are run in parallel, all of them even where one fails.
 #pragma once
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// A search method is chosen by name, and run: global, then local.
 #pragma once
 
 #include "optimizer/evaluator.hpp"

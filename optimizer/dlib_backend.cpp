@@ -1,3 +1,4 @@
+// dlib's global search of mixed variables.
 #include "optimizer/dlib_backend.hpp"
 
 #include "optimizer/latin_hypercube.hpp"

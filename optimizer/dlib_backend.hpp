@@ -1,3 +1,4 @@
+// dlib's global search of mixed variables.
 #pragma once
 
 #include "optimizer/nlopt_backend.hpp"

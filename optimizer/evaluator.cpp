@@ -1,3 +1,4 @@
+// Costs are asked for: with budget, cache, races, and the best so far.
 #include "optimizer/evaluator.hpp"
 
 #include "optimizer/all_at_once.hpp"

@@ -1,3 +1,4 @@
+// Costs are asked for: with budget, cache, races, and the best so far.
 #pragma once
 
 #include "optimizer/failure_count.hpp"

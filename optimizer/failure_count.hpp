@@ -1,3 +1,4 @@
+// When so many evaluations fail that a study is given up.
 #pragma once
 
 namespace nlcwfs {

@@ -1,3 +1,4 @@
+// Points that fill a space.
 #include "optimizer/latin_hypercube.hpp"
 
 #include <cassert>

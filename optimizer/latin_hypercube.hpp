@@ -1,3 +1,4 @@
+// Points that fill a space.
 #pragma once
 
 #include "optimizer/problem.hpp"

@@ -1,3 +1,4 @@
+// NLopt's algorithms, global and local.
 #include "optimizer/nlopt_backend.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// NLopt's algorithms, global and local.
 #pragma once
 
 #include "optimizer/evaluator.hpp"

@@ -1,3 +1,4 @@
+// Several objectives are minimised at once, with pagmo.
 #include "optimizer/pareto_search.hpp"
 
 #include "optimizer/latin_hypercube.hpp"

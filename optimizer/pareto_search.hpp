@@ -1,3 +1,4 @@
+// Several objectives are minimised at once, with pagmo.
 #pragma once
 
 #include "optimizer/evaluator.hpp"

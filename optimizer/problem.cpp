@@ -1,3 +1,4 @@
+// The problem that optimizers see: sub-spaces, variables and a cost.
 #include "optimizer/problem.hpp"
 
 #include <algorithm>

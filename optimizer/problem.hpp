@@ -1,3 +1,4 @@
+// The problem that optimizers see: sub-spaces, variables and a cost.
 #pragma once
 
 #include <any>

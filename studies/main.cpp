@@ -1,3 +1,4 @@
+// The program: a request is read and its command run.
 #include "model/input_error.hpp"
 #include "results/archive/output_folder.hpp"
 #include "studies/command_line/as_typed.hpp"

@@ -1,3 +1,4 @@
+// A disk that is full, for tests.
 #pragma once
 
 #include <csignal>

@@ -1,3 +1,4 @@
+// The message of an error that is expected.
 #pragma once
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Where the build has put what tests need.
 #include "tests/paths.hpp"
 
 namespace nlcwfs {

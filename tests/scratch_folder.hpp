@@ -1,3 +1,4 @@
+// An empty folder for each test.
 #pragma once
 
 #include <algorithm>

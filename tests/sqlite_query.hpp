@@ -1,3 +1,4 @@
+// Archives are queried in tests.
 #pragma once
 
 #include <memory>

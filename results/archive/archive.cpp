@@ -1,3 +1,4 @@
+// Every evaluation and every trial of a run, in SQLite.
 #include "results/archive/archive.hpp"
 
 #include <algorithm>

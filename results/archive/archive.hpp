@@ -1,3 +1,4 @@
+// Every evaluation and every trial of a run, in SQLite.
 #pragma once
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// Trials are remembered in the run's archive, or found in another run's.
 #include "results/archive/archive_memory.hpp"
 
 #include "results/archive/performance_record.hpp"

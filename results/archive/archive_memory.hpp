@@ -1,3 +1,4 @@
+// Trials are remembered in the run's archive, or found in another run's.
 #pragma once
 
 #include "objectives/trial_memory.hpp"

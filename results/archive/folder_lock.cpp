@@ -1,3 +1,4 @@
+// One process works in a run's folder.
 #include "results/archive/folder_lock.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// One process works in a run's folder.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// A run's folder is made, written to and cleared, and nothing is overwritten.
 #include "results/archive/output_folder.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// A run's folder is made, written to and cleared, and nothing is overwritten.
 #pragma once
 
 #include "results/archive/run_files.hpp"

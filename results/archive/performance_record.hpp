@@ -1,3 +1,4 @@
+// Performances become bytes and back, to the last bit.
 #pragma once
 
 #include "model/performance.hpp"

@@ -1,3 +1,4 @@
+// The files that runs leave, and what the page does with them.
 #include "results/archive/run_files.hpp"
 
 #include <algorithm>

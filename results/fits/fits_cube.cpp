@@ -1,3 +1,4 @@
+// Images and maps are read and written as FITS.
 #include "results/fits/fits_cube.hpp"
 
 #include "model/bound_text.hpp"

@@ -1,3 +1,4 @@
+// Images and maps are read and written as FITS.
 #pragma once
 
 #include "model/array.hpp"

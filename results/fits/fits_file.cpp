@@ -1,3 +1,4 @@
+// A FITS file is opened, and CFITSIO's failures become exceptions.
 #include "results/fits/fits_file.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// A binary table is written as FITS.
 #include "results/fits/fits_table.hpp"
 
 #include "results/fits/fits_file.hpp"

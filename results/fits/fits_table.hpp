@@ -1,3 +1,4 @@
+// A binary table is written as FITS.
 #pragma once
 
 #include "results/tables/evaluation_table.hpp"

@@ -1,3 +1,4 @@
+// A run's data become one HTML page.
 #pragma once
 
 #include "model/array.hpp"

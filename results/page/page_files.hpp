@@ -1,3 +1,4 @@
+// The scripts and styles of pages that the program has in itself.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Curves are drawn.
 #include "results/pictures/curve_picture.hpp"
 
 #include "results/pictures/gnuplot.hpp"

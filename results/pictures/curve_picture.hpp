@@ -1,3 +1,4 @@
+// Curves are drawn.
 #pragma once
 
 #include <filesystem>

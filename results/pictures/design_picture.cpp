@@ -1,3 +1,4 @@
+// A design is drawn from the side.
 #include "results/pictures/design_picture.hpp"
 
 #include "results/pictures/gnuplot.hpp"

@@ -1,3 +1,4 @@
+// A design is drawn from the side.
 #pragma once
 
 #include "model/sensor_design.hpp"

@@ -1,3 +1,4 @@
+// gnuplot is run: what all pictures share.
 #include "results/pictures/gnuplot.hpp"
 
 #include <algorithm>

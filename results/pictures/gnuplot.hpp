@@ -1,3 +1,4 @@
+// gnuplot is run: what all pictures share.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// A sweep's grid is drawn, with its best and the path of a search.
 #include "results/pictures/grid_picture.hpp"
 
 #include "objectives/design_space.hpp"

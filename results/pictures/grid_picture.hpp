@@ -1,3 +1,4 @@
+// A sweep's grid is drawn, with its best and the path of a search.
 #pragma once
 
 #include "model/sensor_design.hpp"

@@ -1,3 +1,4 @@
+// Square images are drawn in their colours.
 #include "results/pictures/image_picture.hpp"
 
 #include "results/pictures/gnuplot.hpp"

@@ -1,3 +1,4 @@
+// Square images are drawn in their colours.
 #pragma once
 
 #include "model/array.hpp"

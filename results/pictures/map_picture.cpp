@@ -1,3 +1,4 @@
+// Maps and lines over axes are drawn.
 #include "results/pictures/map_picture.hpp"
 
 #include "results/pictures/gnuplot.hpp"

@@ -1,3 +1,4 @@
+// Maps and lines over axes are drawn.
 #pragma once
 
 #include "model/statistics.hpp"

@@ -1,3 +1,4 @@
+// Several pictures are drawn at once.
 #include "results/pictures/picture_set.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Several pictures are drawn at once.
 #pragma once
 
 #include "results/archive/output_folder.hpp"

@@ -1,3 +1,4 @@
+// Points of a front are drawn.
 #include "results/pictures/scatter_picture.hpp"
 
 #include "results/pictures/gnuplot.hpp"

@@ -1,3 +1,4 @@
+// Points of a front are drawn.
 #pragma once
 
 #include "model/statistics.hpp"

@@ -1,3 +1,4 @@
+// The path of a search and its sensitivity are drawn.
 #include "results/pictures/search_pictures.hpp"
 
 #include "objectives/design_space.hpp"

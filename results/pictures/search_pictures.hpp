@@ -1,3 +1,4 @@
+// The path of a search and its sensitivity are drawn.
 #pragma once
 
 #include "objectives/optimum_range.hpp"

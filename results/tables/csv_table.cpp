@@ -1,3 +1,4 @@
+// CSV is written and read.
 #include "results/tables/csv_table.hpp"
 
 #include "results/tables/text_file.hpp"

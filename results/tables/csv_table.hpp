@@ -1,3 +1,4 @@
+// CSV is written and read.
 #pragma once
 
 #include <filesystem>

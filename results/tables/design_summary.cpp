@@ -1,3 +1,4 @@
+// Designs and performances become JSON, and designs come back.
 #include "results/tables/design_summary.hpp"
 
 #include "objectives/design_field.hpp"

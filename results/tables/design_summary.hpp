@@ -1,3 +1,4 @@
+// Designs and performances become JSON, and designs come back.
 #pragma once
 
 #include "model/performance.hpp"

@@ -1,3 +1,4 @@
+// An archive becomes flat tables.
 #include "results/tables/evaluation_table.hpp"
 
 #include "model/bound_text.hpp"

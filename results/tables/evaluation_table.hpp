@@ -1,3 +1,4 @@
+// An archive becomes flat tables.
 #pragma once
 
 #include "results/archive/archive.hpp"

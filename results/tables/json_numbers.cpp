@@ -1,3 +1,4 @@
+// Numbers are read from JSON, where null is none.
 #include "results/tables/json_numbers.hpp"
 
 #include <cmath>

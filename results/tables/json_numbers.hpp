@@ -1,3 +1,4 @@
+// Numbers are read from JSON, where null is none.
 #pragma once
 
 #include "model/statistics.hpp"

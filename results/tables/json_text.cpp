@@ -1,3 +1,4 @@
+// JSON is read that may come from anywhere.
 #include "results/tables/json_text.hpp"
 
 namespace nlcwfs {

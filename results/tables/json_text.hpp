@@ -1,3 +1,4 @@
+// JSON is read that may come from anywhere.
 #pragma once
 
 #include <string_view>

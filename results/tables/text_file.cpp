@@ -1,3 +1,4 @@
+// Whole text files are read, of bounded size.
 #include "results/tables/text_file.hpp"
 
 #include <cerrno>

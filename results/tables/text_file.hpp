@@ -1,3 +1,4 @@
+// Whole text files are read, of bounded size.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Tried designs become JSON and tables.
 #include "results/tables/trial_summary.hpp"
 
 #include "results/tables/csv_table.hpp"

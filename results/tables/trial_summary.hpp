@@ -1,3 +1,4 @@
+// Tried designs become JSON and tables.
 #pragma once
 
 #include "objectives/design_trial.hpp"

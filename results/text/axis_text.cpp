@@ -1,3 +1,4 @@
+// Names and units of axes, for people.
 #include "results/text/axis_text.hpp"
 
 #include "objectives/design_space.hpp"

@@ -1,3 +1,4 @@
+// Names and units of axes, for people.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Designs and performances, for people.
 #include "results/text/design_text.hpp"
 
 #include "results/text/quantity_text.hpp"

@@ -1,3 +1,4 @@
+// Designs and performances, for people.
 #pragma once
 
 #include "model/performance.hpp"

@@ -1,3 +1,4 @@
+// Lengths and durations, for people.
 #include "results/text/quantity_text.hpp"
 
 #include <cmath>

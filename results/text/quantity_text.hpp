@@ -1,3 +1,4 @@
+// Lengths and durations, for people.
 #pragma once
 
 #include <array>

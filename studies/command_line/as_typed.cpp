@@ -1,3 +1,4 @@
+// Errors of the physics name values as the user has typed them.
 #include "studies/command_line/as_typed.hpp"
 
 #include "studies/settings/text.hpp"

@@ -1,3 +1,4 @@
+// Errors of the physics name values as the user has typed them.
 #pragma once
 
 #include "model/input_error.hpp"

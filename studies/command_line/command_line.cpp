@@ -1,3 +1,4 @@
+// The words of a command line become a request.
 #include "studies/command_line/command_line.hpp"
 
 #include "model/input_error.hpp"

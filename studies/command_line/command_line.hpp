@@ -1,3 +1,4 @@
+// The words of a command line become a request.
 #pragma once
 
 #include "studies/run/request.hpp"

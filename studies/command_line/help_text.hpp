@@ -1,3 +1,4 @@
+// The help of the program and of each command.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// manual: The manual page nlcwfs(1).
 #pragma once
 
 #include <string>

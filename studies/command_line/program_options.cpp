@@ -1,3 +1,4 @@
+// The options of the command line that are no configuration keys.
 #include "studies/command_line/program_options.hpp"
 
 #include "studies/commands/commands.hpp"

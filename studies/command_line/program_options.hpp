@@ -1,3 +1,4 @@
+// The options of the command line that are no configuration keys.
 #pragma once
 
 #include "studies/run/command.hpp"

@@ -1,3 +1,4 @@
+// completion: What lets a shell complete commands, keys and their words.
 #include "studies/command_line/shell_completion.hpp"
 
 #include "model/input_error.hpp"

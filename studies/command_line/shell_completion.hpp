@@ -1,3 +1,4 @@
+// completion: What lets a shell complete commands, keys and their words.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// The list of commands.
 #pragma once
 
 #include "studies/run/command.hpp"

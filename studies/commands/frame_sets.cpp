@@ -1,3 +1,4 @@
+// Sets of measured frames are reconstructed.
 #include "studies/commands/frame_sets.hpp"
 
 #include "model/wavefront_metrics.hpp"

@@ -1,3 +1,4 @@
+// Sets of measured frames are reconstructed.
 #pragma once
 
 #include "model/frame_reconstruction.hpp"

@@ -1,3 +1,4 @@
+// The responses of a design and of pairs of planes are measured.
 #include "studies/commands/frequency_responses.hpp"
 
 #include "model/frequency_response.hpp"

@@ -1,3 +1,4 @@
+// The responses of a design and of pairs of planes are measured.
 #pragma once
 
 #include "model/simulation.hpp"

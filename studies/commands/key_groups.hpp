@@ -1,3 +1,4 @@
+// Groups of configuration keys that several commands read.
 #pragma once
 
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// What reconstruct writes: phases, frames, predictions, pictures.
 #include "studies/commands/reconstruct_files.hpp"
 
 #include "results/fits/fits_cube.hpp"

@@ -1,3 +1,4 @@
+// What reconstruct writes: phases, frames, predictions, pictures.
 #pragma once
 
 #include "results/archive/output_folder.hpp"

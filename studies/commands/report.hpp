@@ -1,3 +1,4 @@
+// report: The page of an earlier run, again.
 #pragma once
 
 #include "studies/run/command.hpp"

@@ -1,3 +1,4 @@
+// What response writes: a table and pictures.
 #include "studies/commands/response_files.hpp"
 
 #include "model/frequency_response.hpp"

@@ -1,3 +1,4 @@
+// What response writes: a table and pictures.
 #pragma once
 
 #include "results/archive/output_folder.hpp"

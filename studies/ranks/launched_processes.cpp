@@ -1,3 +1,4 @@
+// How many processes a launcher has started.
 #include "studies/ranks/launched_processes.hpp"
 
 #include "studies/settings/units.hpp"

@@ -1,3 +1,4 @@
+// How many processes a launcher has started.
 #pragma once
 
 namespace nlcwfs {

@@ -1,3 +1,4 @@
+// The processes that simulate for one run.
 #pragma once
 
 #include "objectives/trial_runner.hpp"

@@ -1,3 +1,4 @@
+// Trials are shared with other processes by MPI.
 #include "model/input_error.hpp"
 #include "objectives/design_trial.hpp"
 #include "results/archive/performance_record.hpp"

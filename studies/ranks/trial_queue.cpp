@@ -1,3 +1,4 @@
+// Trials are cut into pieces, which wait for whoever is free.
 #include "studies/ranks/trial_queue.hpp"
 
 #include "objectives/design_trial.hpp"

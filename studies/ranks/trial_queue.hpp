@@ -1,3 +1,4 @@
+// Trials are cut into pieces, which wait for whoever is free.
 #pragma once
 
 #include "objectives/trial_runner.hpp"

@@ -1,3 +1,4 @@
+// A claim of the paper and what it has come to.
 #include "studies/reproduction/claim.hpp"
 
 #include "results/tables/csv_table.hpp"

@@ -1,3 +1,4 @@
+// How a claim is checked, and what the figures' rules share.
 #include "studies/reproduction/claim_rules.hpp"
 
 #include "model/telescope.hpp"

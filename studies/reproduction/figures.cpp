@@ -1,3 +1,4 @@
+// The paper's figures: all that the program knows of each, and what goes through their list.
 #include "studies/reproduction/figures.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Plane maps in the report, as the paper draws them.
 #include "studies/reproduction/map_report.hpp"
 
 #include "studies/reproduction/claim_rules.hpp"

@@ -1,3 +1,4 @@
+// report.md while it is made, and the pictures and tables beside it.
 #include "studies/reproduction/markdown_report.hpp"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// A sweep over the distances of two pairs of planes, read.
 #include "studies/reproduction/plane_map.hpp"
 
 #include "results/tables/json_numbers.hpp"

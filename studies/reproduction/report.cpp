@@ -1,3 +1,4 @@
+// What a reproduction leaves beside its runs.
 #include "studies/reproduction/report.hpp"
 
 #include "studies/reproduction/figures.hpp"

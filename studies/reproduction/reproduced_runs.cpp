@@ -1,3 +1,4 @@
+// The finished runs of a reproduction, as its figures and claims ask for them.
 #include "studies/reproduction/reproduced_runs.hpp"
 
 #include "results/tables/csv_table.hpp"

@@ -1,3 +1,4 @@
+// What a command is.
 #include "studies/run/command.hpp"
 
 #include <algorithm>

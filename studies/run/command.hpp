@@ -1,3 +1,4 @@
+// What a command is.
 #pragma once
 
 #include "results/archive/run_files.hpp"

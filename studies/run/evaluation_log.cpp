@@ -1,3 +1,4 @@
+// Evaluations are archived, and logged.
 #include "studies/run/evaluation_log.hpp"
 
 #include "studies/settings/text.hpp"

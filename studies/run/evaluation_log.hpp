@@ -1,3 +1,4 @@
+// Evaluations are archived, and logged.
 #pragma once
 
 #include "results/archive/archive.hpp"

@@ -1,3 +1,4 @@
+// Ctrl-C is noted, so that work can come to a clean end.
 #include "studies/run/interrupt.hpp"
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// Ctrl-C is noted, so that work can come to a clean end.
 #pragma once
 
 #include <exception>

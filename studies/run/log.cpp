@@ -1,3 +1,4 @@
+// What goes to standard error while a command runs.
 #include "studies/run/log.hpp"
 
 #include <chrono>

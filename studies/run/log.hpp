@@ -1,3 +1,4 @@
+// What goes to standard error while a command runs.
 #pragma once
 
 #include <string_view>

@@ -1,3 +1,4 @@
+// The files of a run become the data of its page.
 #include "studies/run/page_data.hpp"
 
 #include "model/input_error.hpp"

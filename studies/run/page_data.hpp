@@ -1,3 +1,4 @@
+// The files of a run become the data of its page.
 #pragma once
 
 #include "studies/run/command.hpp"

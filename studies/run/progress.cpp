@@ -1,3 +1,4 @@
+// How far a command is, and how long it will take.
 #include "studies/run/progress.hpp"
 
 #include "studies/run/interrupt.hpp"

@@ -1,3 +1,4 @@
+// How far a command is, and how long it will take.
 #pragma once
 
 #include "model/simulation.hpp"

@@ -1,3 +1,4 @@
+// What the user asks for.
 #pragma once
 
 #include "studies/run/log.hpp"

@@ -1,3 +1,4 @@
+// What every run leaves in its folder.
 #include "studies/run/run_record.hpp"
 
 #include "results/archive/archive_memory.hpp"

@@ -1,3 +1,4 @@
+// What every run leaves in its folder.
 #pragma once
 
 #include "objectives/design_trial.hpp"

@@ -1,3 +1,4 @@
+// Time is measured.
 #pragma once
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// How long work will take, from how long it has taken.
 #include "studies/run/time_left.hpp"
 
 #include <algorithm>

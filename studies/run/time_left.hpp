@@ -1,3 +1,4 @@
+// How long work will take, from how long it has taken.
 #pragma once
 
 #include <deque>

@@ -1,3 +1,4 @@
+// What the verdicts of several commands say alike.
 #include "studies/run/verdict_text.hpp"
 
 #include "results/tables/json_numbers.hpp"

@@ -1,3 +1,4 @@
+// What the verdicts of several commands say alike.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// The program's version.
 #include "studies/run/version.hpp"
 
 namespace nlcwfs {

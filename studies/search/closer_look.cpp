@@ -1,3 +1,4 @@
+// A design is shown on its typical and on its worst wavefront.
 #include "studies/search/closer_look.hpp"
 
 #include "results/fits/fits_cube.hpp"

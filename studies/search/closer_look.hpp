@@ -1,3 +1,4 @@
+// A design is shown on its typical and on its worst wavefront.
 #pragma once
 
 #include "objectives/design_trial.hpp"

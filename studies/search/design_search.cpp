@@ -1,3 +1,4 @@
+// One best design is searched, verified, and how far it may move is scanned.
 #include "studies/search/design_search.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// One best design is searched, verified, and how far it may move is scanned.
 #pragma once
 
 #include "objectives/design_comparison.hpp"

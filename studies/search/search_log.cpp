@@ -1,3 +1,4 @@
+// A search is watched: archive, table and progress.
 #include "studies/search/search_log.hpp"
 
 #include "results/tables/design_summary.hpp"

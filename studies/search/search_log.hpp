@@ -1,3 +1,4 @@
+// A search is watched: archive, table and progress.
 #pragma once
 
 #include "model/telescope.hpp"

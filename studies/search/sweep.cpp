@@ -1,3 +1,4 @@
+// Every design of a grid is tried, and the best are verified.
 #include "studies/search/sweep.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Every design of a grid is tried, and the best are verified.
 #pragma once
 
 #include "model/statistics.hpp"

@@ -1,3 +1,4 @@
+// The front of several objectives is searched and verified.
 #include "studies/search/trade_search.hpp"
 
 #include "model/input_error.hpp"

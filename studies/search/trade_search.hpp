@@ -1,3 +1,4 @@
+// The front of several objectives is searched and verified.
 #pragma once
 
 #include "model/seeing.hpp"

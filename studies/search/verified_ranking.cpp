@@ -1,3 +1,4 @@
+// Designs are tried on fresh screens, and ranked there.
 #include "studies/search/verified_ranking.hpp"
 
 #include "model/input_error.hpp"

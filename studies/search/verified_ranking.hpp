@@ -1,3 +1,4 @@
+// Designs are tried on fresh screens, and ranked there.
 #pragma once
 
 #include "objectives/design_comparison.hpp"

@@ -1,3 +1,4 @@
+// Values of keys, layer upon layer: defaults, preset, files, command line.
 #include "studies/settings/configuration.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Values of keys, layer upon layer: defaults, preset, files, command line.
 #pragma once
 
 #include "model/light_source.hpp"

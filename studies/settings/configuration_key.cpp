@@ -1,3 +1,4 @@
+// What a configuration key is, and which values it takes.
 #include "studies/settings/configuration_key.hpp"
 
 #include "studies/settings/text.hpp"

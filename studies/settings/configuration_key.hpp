@@ -1,3 +1,4 @@
+// What a configuration key is, and which values it takes.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// The table of all configuration keys, and the presets.
 #include "model/words.hpp"
 #include "objectives/design_cost.hpp"
 #include "objectives/design_metric.hpp"

@@ -1,3 +1,4 @@
+// Scaling laws are read from files, and written.
 #include "studies/settings/law_file.hpp"
 
 #include "model/input_error.hpp"

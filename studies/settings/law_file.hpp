@@ -1,3 +1,4 @@
+// Scaling laws are read from files, and written.
 #pragma once
 
 #include "objectives/scaling_law.hpp"

@@ -1,3 +1,4 @@
+// A user's own frames are read, as the section frames describes them.
 #include "studies/settings/measured_frames.hpp"
 
 #include "model/frame_calibration.hpp"

@@ -1,3 +1,4 @@
+// A user's own frames are read, as the section frames describes them.
 #pragma once
 
 #include "model/array.hpp"

@@ -1,3 +1,4 @@
+// Lists of metrics with weights and bounds are read.
 #include "studies/settings/metric_text.hpp"
 
 #include "model/input_error.hpp"

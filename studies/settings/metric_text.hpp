@@ -1,3 +1,4 @@
+// Lists of metrics with weights and bounds are read.
 #pragma once
 
 #include "objectives/design_cost.hpp"

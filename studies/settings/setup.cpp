@@ -1,3 +1,4 @@
+// A configuration becomes the types of the physics.
 #include "studies/settings/setup.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// A configuration becomes the types of the physics.
 #pragma once
 
 #include "model/light_source.hpp"

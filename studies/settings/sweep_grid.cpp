@@ -1,3 +1,4 @@
+// The section sweep becomes a grid of designs.
 #include "studies/settings/sweep_grid.hpp"
 
 #include "model/input_error.hpp"

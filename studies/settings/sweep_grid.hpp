@@ -1,3 +1,4 @@
+// The section sweep becomes a grid of designs.
 #pragma once
 
 #include "objectives/design_grid.hpp"

@@ -1,3 +1,4 @@
+// Texts are trimmed, wrapped, shown in one line, and held against known words.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Screens are drawn or read, and trials made of them.
 #include "studies/settings/trials.hpp"
 
 #include "model/grid_width.hpp"

@@ -1,3 +1,4 @@
+// Screens are drawn or read, and trials made of them.
 #pragma once
 
 #include "objectives/design_trial.hpp"

@@ -1,3 +1,4 @@
+// Numbers, lengths, times, ranges and lists are read.
 #include "studies/settings/units.hpp"
 
 #include "results/text/quantity_text.hpp"

@@ -1,3 +1,4 @@
+// Numbers, lengths, times, ranges and lists are read.
 #pragma once
 
 #include "model/light_source.hpp"

@@ -1,3 +1,4 @@
+// Why a key does not take a value, in a few words.
 #include "studies/settings/value_fault.hpp"
 
 #include "studies/settings/text.hpp"

@@ -1,3 +1,4 @@
+// Why a key does not take a value, in a few words.
 #pragma once
 
 #include "studies/settings/configuration_key.hpp"

@@ -1,3 +1,4 @@
+// Fuzzes configuration files, and what the commands make of them.
 #include "studies/settings/configuration.hpp"
 #include "studies/settings/setup.hpp"
 #include "studies/settings/sweep_grid.hpp"

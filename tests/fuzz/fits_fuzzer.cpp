@@ -1,3 +1,4 @@
+// Fuzzes FITS files.
 #include "results/fits/fits_cube.hpp"
 #include "tests/fuzz/fuzzer.hpp"
 #include "tests/fuzz/memory_file.hpp"

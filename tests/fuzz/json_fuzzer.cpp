@@ -1,3 +1,4 @@
+// Fuzzes JSON: law files and summaries.
 #include "studies/commands/report.hpp"
 #include "studies/run/page_data.hpp"
 #include "studies/settings/law_file.hpp"

@@ -1,3 +1,4 @@
+// A file in memory, for fuzzers.
 #pragma once
 
 #include <cstdio>

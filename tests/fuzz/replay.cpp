@@ -1,3 +1,4 @@
+// Replays a corpus through a fuzzer.
 #include "tests/fuzz/fuzzer.hpp"
 
 #include <algorithm>

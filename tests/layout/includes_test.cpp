@@ -238,5 +238,19 @@ TEST_F(Includes, OfTestsStandInTheFoldersOfWhatTheyTest) {
   }
 }
 
+TEST_F(Includes, StandBelowASentenceThatSaysWhatHappensInTheFile) {
+  for (const std::string top :
+       {"model", "optimizer", "objectives", "results", "studies", "tests", "benchmarks"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(source_folder() / top)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".cpp" && extension != ".hpp" && extension != ".in") continue;
+      std::ifstream stream(entry.path());
+      std::string line;
+      std::getline(stream, line);
+      EXPECT_TRUE(line.starts_with("// ")) << entry.path() << " begins with: " << line;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nlcwfs

@@ -1,3 +1,4 @@
+// An independent reconstruction of a comatic wavefront, to be held against.
 #pragma once
 
 #include "model/pupil.hpp"

@@ -1,3 +1,4 @@
+// Tests: Light becomes a plane's image: pixels, window, photons and noise.
 #include "model/detector.hpp"
 
 #include "model/pupil.hpp"

@@ -1,3 +1,4 @@
+// Tests: Fourier transforms of lines and squares, through FFTW.
 #include "model/fourier_transform.hpp"
 
 #include "model/random_stream.hpp"

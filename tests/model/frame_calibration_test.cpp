@@ -1,3 +1,4 @@
+// Tests: Measured frames become images: background, bad pixels, saturation, brightness.
 #include "model/frame_calibration.hpp"
 
 #include <cmath>

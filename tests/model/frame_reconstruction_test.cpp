@@ -1,3 +1,4 @@
+// Tests: Wavefronts are reconstructed from measured frames, and held against them.
 #include "model/frame_reconstruction.hpp"
 
 #include "model/frame_calibration.hpp"

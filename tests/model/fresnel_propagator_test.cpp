@@ -1,3 +1,4 @@
+// Tests: A field is propagated on the reconstruction's periodic grid.
 #include "model/fresnel_propagator.hpp"
 
 #include "coma_reference.hpp"

@@ -1,3 +1,4 @@
+// Tests: The loop: a wavefront is reconstructed from the images of several planes.
 #include "model/gerchberg_saxton.hpp"
 
 #include "coma_reference.hpp"

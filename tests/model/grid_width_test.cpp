@@ -1,3 +1,4 @@
+// Tests: Widths that grids may have: bounded, and with small prime factors.
 #include "model/grid_width.hpp"
 
 #include "tests/message_of.hpp"

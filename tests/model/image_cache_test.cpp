@@ -1,3 +1,4 @@
+// Tests: Noise-free images are kept for the next design that reads the same plane.
 #include "model/image_cache.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tests: Gaps of an image are filled from around them.
 #include "model/image_gaps.hpp"
 
 #include <cmath>

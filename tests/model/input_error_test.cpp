@@ -1,3 +1,4 @@
+// Tests: what is wrong with a user's input becomes one line.
 #include "model/input_error.hpp"
 
 #include <gtest/gtest.h>

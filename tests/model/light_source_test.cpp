@@ -1,3 +1,4 @@
+// Tests: Bands of light become wavelengths with weights, for each plane.
 #include "model/light_source.hpp"
 
 #include "tests/message_of.hpp"

@@ -1,3 +1,4 @@
+// Tests: How much the wavefront changes from loop to loop, and when that is little enough.
 #include "model/loop_change.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests: Which samples lie in the pupil, and the light that enters there.
 #include "model/pupil.hpp"
 
 #include <numbers>

@@ -1,3 +1,4 @@
+// Tests: Random numbers that are the same on every platform.
 #include "model/random_stream.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests: A phase is brought to another number of samples.
 #include "model/screen_resampling.hpp"
 
 #include "model/pupil.hpp"

@@ -1,3 +1,4 @@
+// Tests: Variances and structure functions of phase screens.
 #include "model/screen_statistics.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests: The turbulence that a telescope looks through, and the theory of its phase.
 #include "model/seeing.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Tests: What a sensor is: planes, detector and reconstruction.
 #include "model/sensor_design.hpp"
 
 #include "tests/message_of.hpp"

@@ -1,3 +1,4 @@
+// Tests: Means, standard errors and quantiles of samples.
 #include "model/statistics.hpp"
 
 #include "model/random_stream.hpp"

@@ -1,3 +1,4 @@
+// Tests: The telescope, and what diffraction makes of its distances.
 #include "model/telescope.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Tests: The light that reaches the detectors: extended, periodic or the reconstruction's own.
 #include "model/true_light.hpp"
 
 #include "model/seeing.hpp"

@@ -1,3 +1,4 @@
+// Tests: Phase screens are drawn whose structure function is exact.
 #include "model/turbulence_screen.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Tests: the comparison of unwrapping methods runs.
 #include "model/simulation.hpp"
 #include "model/statistics.hpp"
 #include "model/turbulence_screen.hpp"

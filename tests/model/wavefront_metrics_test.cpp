@@ -1,3 +1,4 @@
+// Tests: A reconstruction is held against the truth: wavefront errors and Strehl ratio.
 #include "model/wavefront_metrics.hpp"
 
 #include "model/phase_unwrapping.hpp"

@@ -1,3 +1,4 @@
+// Tests: Costs under several conditions become one.
 #include "objectives/cost_aggregate.hpp"
 
 #include "model/random_stream.hpp"

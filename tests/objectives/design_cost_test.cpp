@@ -1,3 +1,4 @@
+// Tests: What a design costs: wavefront error, loops, time, penalties and limits.
 #include "objectives/design_cost.hpp"
 
 #include "tests/message_of.hpp"

@@ -1,3 +1,4 @@
+// Tests: The designs of a grid, and which of its points share one.
 #include "objectives/design_grid.hpp"
 
 #include "tests/message_of.hpp"

@@ -1,3 +1,4 @@
+// Tests: Figures of a design that costs, limits and fronts may use.
 #include "objectives/design_metric.hpp"
 
 #include "model/input_error.hpp"

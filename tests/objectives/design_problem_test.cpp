@@ -1,3 +1,4 @@
+// Tests: A design space and its trial become a problem that an optimizer sees.
 #include "objectives/design_problem.hpp"
 
 #include "optimizer/chained_search.hpp"

@@ -1,3 +1,4 @@
+// Tests: What a search may choose becomes points, and points become sensors.
 #include "objectives/design_space.hpp"
 
 #include "tests/message_of.hpp"

@@ -1,3 +1,4 @@
+// Tests: A design is tried: simulated under each condition, judged and remembered.
 #include "objectives/design_trial.hpp"
 
 #include "model/input_error.hpp"

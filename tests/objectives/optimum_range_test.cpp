@@ -1,3 +1,4 @@
+// Tests: How far each variable of the best design may move.
 #include "objectives/optimum_range.hpp"
 
 #include "objectives/design_comparison.hpp"

@@ -1,3 +1,4 @@
+// Tests: A law is fitted to the best designs at several seeings.
 #include "objectives/scaling_law.hpp"
 
 #include "model/random_stream.hpp"

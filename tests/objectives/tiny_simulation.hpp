@@ -1,3 +1,4 @@
+// A simulation of milliseconds, for tests.
 #pragma once
 
 #include "model/simulation.hpp"

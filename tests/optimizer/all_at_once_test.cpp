@@ -1,3 +1,4 @@
+// Tests: Bodies are run in parallel, all of them even where one fails.
 #include "optimizer/all_at_once.hpp"
 
 #include <atomic>

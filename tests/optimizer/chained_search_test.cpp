@@ -1,3 +1,4 @@
+// Tests: A search method is chosen by name, and run: global, then local.
 #include "optimizer/chained_search.hpp"
 
 #include "test_problems.hpp"

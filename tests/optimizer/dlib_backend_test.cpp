@@ -1,3 +1,4 @@
+// Tests: dlib's global search of mixed variables.
 #include "optimizer/dlib_backend.hpp"
 
 #include "test_problems.hpp"

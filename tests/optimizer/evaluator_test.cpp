@@ -1,3 +1,4 @@
+// Tests: Costs are asked for: with budget, cache, races, and the best so far.
 #include "optimizer/evaluator.hpp"
 
 #include "test_problems.hpp"

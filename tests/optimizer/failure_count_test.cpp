@@ -1,3 +1,4 @@
+// Tests: When so many evaluations fail that a study is given up.
 #include "optimizer/failure_count.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests: Points that fill a space.
 #include "optimizer/latin_hypercube.hpp"
 
 #include <cmath>

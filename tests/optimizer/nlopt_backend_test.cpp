@@ -1,3 +1,4 @@
+// Tests: NLopt's algorithms, global and local.
 #include "optimizer/nlopt_backend.hpp"
 
 #include "test_problems.hpp"

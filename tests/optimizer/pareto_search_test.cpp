@@ -1,3 +1,4 @@
+// Tests: Several objectives are minimised at once, with pagmo.
 #include "optimizer/pareto_search.hpp"
 
 #include "test_problems.hpp"

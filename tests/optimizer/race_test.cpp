@@ -1,3 +1,4 @@
+// Tests: Designs that are clearly worse are given up after their first samples.
 #include "optimizer/race.hpp"
 
 #include <algorithm>

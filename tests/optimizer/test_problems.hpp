@@ -1,3 +1,4 @@
+// Problems whose answers are known, for all backends.
 #pragma once
 
 #include "optimizer/problem.hpp"

@@ -1,3 +1,4 @@
+// Tests: bad input of every kind gives one line that names key, value and remedy.
 #include "results/fits/fits_cube.hpp"
 #include "tests/studies/program.hpp"
 

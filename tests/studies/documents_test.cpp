@@ -1,3 +1,4 @@
+// Tests: the documents' commands, links and lists of files hold.
 #include "tests/studies/program.hpp"
 
 #include <algorithm>

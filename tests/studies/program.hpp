@@ -1,3 +1,4 @@
+// Runs the real program in tests.
 #pragma once
 
 #include "results/archive/output_folder.hpp"

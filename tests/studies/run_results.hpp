@@ -1,3 +1,4 @@
+// What tests of several commands ask of a run's results.
 #pragma once
 
 #include "tests/studies/program.hpp"

@@ -1,3 +1,4 @@
+// Tests: results are those of the plain loops, up to rounding.
 #include "tests/paths.hpp"
 #include "tests/studies/program.hpp"
 

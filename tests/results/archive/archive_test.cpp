@@ -1,3 +1,4 @@
+// Tests: Every evaluation and every trial of a run, in SQLite.
 #include "results/archive/archive.hpp"
 
 #include "tests/full_disk.hpp"

@@ -1,3 +1,4 @@
+// Tests: One process works in a run's folder.
 #include "results/archive/folder_lock.hpp"
 
 #include "tests/message_of.hpp"

@@ -1,3 +1,4 @@
+// Tests: Performances become bytes and back, to the last bit.
 #include "results/archive/performance_record.hpp"
 
 #include <algorithm>

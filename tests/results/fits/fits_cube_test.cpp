@@ -1,3 +1,4 @@
+// Tests: Images and maps are read and written as FITS.
 #include "results/fits/fits_cube.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Tests: A run's data become one HTML page.
 #include "results/page/page.hpp"
 
 #include "results/page/page_files.hpp"

@@ -1,3 +1,4 @@
+// Tests: Curves are drawn.
 #include "results/pictures/curve_picture.hpp"
 
 #include "tests/scratch_folder.hpp"

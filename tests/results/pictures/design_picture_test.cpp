@@ -1,3 +1,4 @@
+// Tests: A design is drawn from the side.
 #include "results/pictures/design_picture.hpp"
 
 #include "tests/scratch_folder.hpp"

@@ -1,3 +1,4 @@
+// Tests: gnuplot is run: what all pictures share.
 #include "results/pictures/gnuplot.hpp"
 
 #include "tests/scratch_folder.hpp"

@@ -1,3 +1,4 @@
+// Tests: A sweep's grid is drawn, with its best and the path of a search.
 #include "results/pictures/grid_picture.hpp"
 
 #include "results/fits/fits_cube.hpp"

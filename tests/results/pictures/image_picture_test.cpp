@@ -1,3 +1,4 @@
+// Tests: Square images are drawn in their colours.
 #include "results/pictures/image_picture.hpp"
 
 #include "tests/scratch_folder.hpp"

@@ -1,3 +1,4 @@
+// Tests: Maps and lines over axes are drawn.
 #include "results/pictures/map_picture.hpp"
 
 #include "tests/scratch_folder.hpp"

@@ -1,3 +1,4 @@
+// Tests: Points of a front are drawn.
 #include "results/pictures/scatter_picture.hpp"
 
 #include "tests/scratch_folder.hpp"

@@ -1,3 +1,4 @@
+// Tests: The path of a search and its sensitivity are drawn.
 #include "results/pictures/search_pictures.hpp"
 
 #include "results/tables/csv_table.hpp"

@@ -1,3 +1,4 @@
+// Tests: CSV is written and read.
 #include "results/tables/csv_table.hpp"
 
 #include "tests/scratch_folder.hpp"

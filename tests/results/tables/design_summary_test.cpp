@@ -1,3 +1,4 @@
+// Tests: Designs and performances become JSON, and designs come back.
 #include "results/tables/design_summary.hpp"
 
 #include <cmath>

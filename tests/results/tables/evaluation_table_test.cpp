@@ -1,3 +1,4 @@
+// Tests: An archive becomes flat tables.
 #include "results/tables/evaluation_table.hpp"
 
 #include "results/archive/output_folder.hpp"

@@ -1,3 +1,4 @@
+// Tests: JSON is read that may come from anywhere.
 #include "results/tables/json_text.hpp"
 
 #include <string>

@@ -1,3 +1,4 @@
+// Tests: Whole text files are read, of bounded size.
 #include "results/tables/text_file.hpp"
 
 #include "tests/scratch_folder.hpp"

@@ -1,3 +1,4 @@
+// Tests: The words of a command line become a request.
 #include "studies/command_line/command_line.hpp"
 
 #include "results/archive/archive.hpp"

@@ -1,3 +1,4 @@
+// Tests: The help of the program and of each command.
 #include "studies/command_line/help_text.hpp"
 
 #include "studies/command_line/program_options.hpp"

@@ -1,3 +1,4 @@
+// Tests: The manual page nlcwfs(1).
 #include "studies/command_line/manual_page.hpp"
 
 #include "studies/command_line/program_options.hpp"

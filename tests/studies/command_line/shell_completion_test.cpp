@@ -1,3 +1,4 @@
+// Tests: What lets a shell complete commands, keys and their words.
 #include "studies/command_line/shell_completion.hpp"
 
 #include "studies/command_line/program_options.hpp"

@@ -1,3 +1,4 @@
+// Tests of the command advise, run as a user does.
 #include "studies/settings/law_file.hpp"
 #include "tests/studies/program.hpp"
 

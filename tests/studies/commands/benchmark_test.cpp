@@ -1,3 +1,4 @@
+// Tests of benchmark: how fast this machine is at the configuration.
 #include "tests/studies/program.hpp"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// Tests: The list of commands.
 #include "studies/commands/commands.hpp"
 
 #include "results/archive/archive.hpp"

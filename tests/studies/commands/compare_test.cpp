@@ -1,3 +1,4 @@
+// Tests of the command compare, run as a user does.
 #include "results/archive/archive.hpp"
 #include "studies/settings/configuration.hpp"
 #include "tests/studies/program.hpp"

@@ -1,3 +1,4 @@
+// Tests of convergence: how one design's wavefront error falls from loop to loop.
 #include "tests/studies/program.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests of evaluate: one design's performance on the configured screens.
 #include "results/fits/fits_cube.hpp"
 #include "studies/run/version.hpp"
 #include "studies/settings/setup.hpp"

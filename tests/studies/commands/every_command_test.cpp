@@ -1,3 +1,4 @@
+// Tests: what all commands promise.
 #include "studies/commands/commands.hpp"
 #include "studies/run/version.hpp"
 #include "studies/settings/setup.hpp"

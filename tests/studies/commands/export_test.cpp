@@ -1,3 +1,4 @@
+// Tests of export: a run's archive as flat tables.
 #include "results/archive/archive.hpp"
 #include "results/tables/csv_table.hpp"
 #include "tests/studies/program.hpp"

@@ -1,3 +1,4 @@
+// Tests of law: the scaling law of the best designs at several seeings.
 #include "studies/settings/law_file.hpp"
 #include "tests/studies/program.hpp"
 

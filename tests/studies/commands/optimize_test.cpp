@@ -1,3 +1,4 @@
+// Tests of the command optimize, run as a user does.
 #include "studies/settings/setup.hpp"
 #include "tests/studies/run_results.hpp"
 

@@ -1,3 +1,4 @@
+// Tests of the command reconstruct, run as a user does.
 #include "model/detector.hpp"
 #include "model/pupil.hpp"
 #include "model/true_light.hpp"

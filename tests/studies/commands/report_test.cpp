@@ -1,3 +1,4 @@
+// Tests of report: the page of an earlier run, again.
 #include "studies/commands/report.hpp"
 
 #include "studies/commands/commands.hpp"

@@ -1,3 +1,4 @@
+// Tests of the command response, run as a user does.
 #include "tests/studies/program.hpp"
 
 #include <algorithm>

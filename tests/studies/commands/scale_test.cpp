@@ -1,3 +1,4 @@
+// Tests of scale: a design moved to another telescope at constant Fresnel numbers.
 #include "studies/settings/setup.hpp"
 #include "tests/studies/run_results.hpp"
 

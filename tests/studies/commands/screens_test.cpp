@@ -1,3 +1,4 @@
+// Tests of screens: phase screens as a FITS cube, with their statistics.
 #include "results/fits/fits_cube.hpp"
 #include "tests/studies/run_results.hpp"
 

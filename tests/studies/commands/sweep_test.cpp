@@ -1,3 +1,4 @@
+// Tests of sweep: every design of the configured grid, the best of them verified on fresh screens.
 #include "results/archive/archive.hpp"
 #include "studies/settings/configuration.hpp"
 #include "tests/studies/program.hpp"

@@ -1,3 +1,4 @@
+// Tests of the command trade, run as a user does.
 #include "studies/settings/configuration.hpp"
 #include "tests/studies/program.hpp"
 

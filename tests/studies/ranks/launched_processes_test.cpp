@@ -1,3 +1,4 @@
+// Tests: How many processes a launcher has started.
 #include "studies/ranks/launched_processes.hpp"
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// Tests: Trials are cut into pieces, which wait for whoever is free.
 #include "studies/ranks/trial_queue.hpp"
 
 #include "model/input_error.hpp"

@@ -1,3 +1,4 @@
+// Tests: a sweep's figures over the distances of two pairs.
 #include "studies/reproduction/plane_map.hpp"
 
 #include <cmath>

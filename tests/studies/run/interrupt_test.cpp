@@ -1,3 +1,4 @@
+// Tests: Ctrl-C is noted, so that work can come to a clean end.
 #include "tests/studies/program.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tests: What goes to standard error while a command runs.
 #include "tests/studies/program.hpp"
 
 #include <regex>

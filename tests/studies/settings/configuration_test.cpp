@@ -1,3 +1,4 @@
+// Tests: Values of keys, layer upon layer: defaults, preset, files, command line.
 #include "studies/settings/configuration.hpp"
 
 #include "optimizer/nlopt_backend.hpp"

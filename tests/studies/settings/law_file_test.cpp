@@ -1,3 +1,4 @@
+// Tests: Scaling laws are read from files, and written.
 #include "studies/settings/law_file.hpp"
 
 #include "tests/message_of.hpp"

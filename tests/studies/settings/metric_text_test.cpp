@@ -1,3 +1,4 @@
+// Tests: Lists of metrics with weights and bounds are read.
 #include "studies/settings/metric_text.hpp"
 
 #include "tests/message_of.hpp"

@@ -1,3 +1,4 @@
+// Tests: A configuration becomes the types of the physics.
 #include "studies/settings/trials.hpp"
 #include "tests/message_of.hpp"
 

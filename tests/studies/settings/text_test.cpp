@@ -1,3 +1,4 @@
+// Tests: Texts are trimmed, wrapped, shown in one line, and held against known words.
 #include "studies/settings/text.hpp"
 
 #include <gmock/gmock.h>

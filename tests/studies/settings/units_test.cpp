@@ -1,3 +1,4 @@
+// Tests: Numbers, lengths, times, ranges and lists are read.
 #include "studies/settings/units.hpp"
 
 #include "results/text/quantity_text.hpp"
