@@ -11,9 +11,7 @@ namespace {
 constexpr std::array<const char*, 2> three_planes{"without-p3", "without-p1"};
 
 void add_runs(Plan& plan, StudySetup setup) {
-  plan.add_map(run_folder("figure-3", setup, "4"), setup, 4, "1234");
-  plan.add_map(run_folder("figure-4", setup, "without-p3"), setup, 4, "124");
-  plan.add_map(run_folder("figure-4", setup, "without-p1"), setup, 4, "234");
+  plan.add_plane_count_maps(setup);
   // One after the other, so that their times compare.
   plan.add_design(setup, "four-planes", {0, 1, 2, 3});
   plan.add_design(setup, "without-p3", {0, 1, 3});

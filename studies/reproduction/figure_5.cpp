@@ -35,6 +35,7 @@ void add_runs(Plan& plan, StudySetup setup) {
   }
   plan.add(run_folder("figure-5", setup), "sweep", std::move(configuration), values);
   plan.add_design(setup, "four-planes", {0, 1, 2, 3});
+  plan.add_plane_count_maps(setup);  // which its claims compare it with
 }
 
 /// The scan of the fifth plane.

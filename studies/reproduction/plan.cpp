@@ -96,6 +96,12 @@ void Plan::add_map(const std::string& folder, StudySetup setup, int ratio,
        {"sweep.crossed_pairs", "left_out"}});
 }
 
+void Plan::add_plane_count_maps(StudySetup setup) {
+  add_map(run_folder("figure-3", setup, "4"), setup, 4, "1234");
+  add_map(run_folder("figure-4", setup, "without-p3"), setup, 4, "124");
+  add_map(run_folder("figure-4", setup, "without-p1"), setup, 4, "234");
+}
+
 void Plan::add_design(StudySetup setup, std::string_view name,
                       const std::vector<std::size_t>& papers_places) {
   Configuration configuration = base(setup);

@@ -56,6 +56,9 @@ class Plan {
   /// @param order  in which -near, near, -far, far are visited, such as "1234"
   void add_map(const std::string& folder, StudySetup setup, int ratio, const std::string& order);
 
+  /// Those of four planes and of three at D/r0 = 4.
+  void add_plane_count_maps(StudySetup setup);
+
   /// The paper's planes, or others at its distances, one for one.
   /// @param papers_places  of the paper's planes, counted from 0
   void add_design(StudySetup setup, std::string_view name,
