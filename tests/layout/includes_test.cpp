@@ -238,6 +238,16 @@ TEST_F(Includes, OfTestsStandInTheFoldersOfWhatTheyTest) {
   }
 }
 
+TEST_F(Includes, OfTestsAreInTheListsOfSources) {
+  std::ifstream stream(source_folder() / "tests/CMakeLists.txt");
+  const std::string lists(std::istreambuf_iterator<char>(stream), {});
+  for (const auto& entry : fs::recursive_directory_iterator(source_folder() / "tests")) {
+    if (!entry.path().filename().string().ends_with("_test.cpp")) continue;
+    const fs::path path = entry.path().lexically_relative(source_folder() / "tests");
+    EXPECT_THAT(lists, HasSubstr(path.lexically_relative(*path.begin()).string())) << path;
+  }
+}
+
 TEST_F(Includes, StandBelowASentenceThatSaysWhatHappensInTheFile) {
   for (const std::string top :
        {"model", "optimizer", "objectives", "results", "studies", "tests", "benchmarks"}) {
