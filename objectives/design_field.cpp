@@ -6,176 +6,89 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace nlcwfs {
 namespace {
 
-using Design = SensorDesign;
-
-template <class Enum>
-std::vector<std::string_view> words() {
-  std::vector<std::string_view> list;
-  for (const auto& [word, value] : word_table<Enum>) list.push_back(word);
-  return list;
+/// A member of a design's parts.
+template <class Design, class Value>
+auto& value_in(Design& design, Value Detector::*member) {
+  return design.detector.*member;
+}
+template <class Design, class Value>
+auto& value_in(Design& design, Value ReconstructionOptions::*member) {
+  return design.reconstruction.*member;
 }
 
-template <class Enum>
-Enum enum_of(double value) {
-  return static_cast<Enum>(std::lround(value));
+/// A field that is one member of a design's detector or reconstruction.
+template <auto member>
+DesignField field(std::string_view summary, std::string_view variable, std::string_view key,
+                  std::string_view label, std::string_view unit = "", Scale scale = Scale::linear) {
+  using Value = std::remove_reference_t<decltype(value_in(std::declval<SensorDesign&>(), member))>;
+  DesignField row{
+      .summary = summary,
+      .variable = variable,
+      .key = key,
+      .label = label,
+      .unit = unit,
+      .kind = std::is_same_v<Value, double> ? VariableKind::continuous
+              : std::is_enum_v<Value>       ? VariableKind::categorical
+                                            : VariableKind::integer,
+      .scale = scale,
+      .words = {},
+      .get =
+          [](const SensorDesign& design) { return static_cast<double>(value_in(design, member)); },
+      .set =
+          [](SensorDesign& design, double value) {
+            if constexpr (std::is_same_v<Value, double>) {
+              value_in(design, member) = value;
+            } else {
+              value_in(design, member) = static_cast<Value>(std::lround(value));
+            }
+          }};
+  if constexpr (std::is_enum_v<Value>) {
+    for (const auto& [word, value] : word_table<Value>) row.words.push_back(word);
+  }
+  return row;
 }
-
-int whole(double value) { return static_cast<int>(std::lround(value)); }
 
 std::vector<DesignField> make_fields() {
-  using enum VariableKind;
   using enum Scale;
-  return {
-      {"pupil_pixels",
-       "pupil_pixels",
-       "detector.pupil_pixels",
-       "pupil pixels",
-       "",
-       integer,
-       linear,
-       {},
-       [](const Design& d) { return double(d.detector.pupil_pixels); },
-       [](Design& d, double v) { d.detector.pupil_pixels = whole(v); }},
-      {"detector_window",
-       "detector_window",
-       "detector.window",
-       "detector window, pupil diameters",
-       "",
-       continuous,
-       linear,
-       {},
-       [](const Design& d) { return d.detector.window; },
-       [](Design& d, double v) { d.detector.window = v; }},
-      {"photons",
-       "",
-       "detector.photons",
-       "photons",
-       "",
-       continuous,
-       linear,
-       {},
-       [](const Design& d) { return d.detector.photons; },
-       [](Design& d, double v) { d.detector.photons = v; }},
-      {"photon_rate",
-       "",
-       "detector.photon_rate",
-       "photons per second",
-       "",
-       continuous,
-       linear,
-       {},
-       [](const Design& d) { return d.detector.photon_rate; },
-       [](Design& d, double v) { d.detector.photon_rate = v; }},
-      {"exposure_s",
-       "exposure",
-       "detector.exposure",
-       "exposure",
-       "s",
-       continuous,
-       logarithmic,
-       {},
-       [](const Design& d) { return d.detector.exposure; },
-       [](Design& d, double v) { d.detector.exposure = v; }},
-      {"read_noise",
-       "",
-       "detector.read_noise",
-       "read noise",
-       "",
-       continuous,
-       linear,
-       {},
-       [](const Design& d) { return d.detector.read_noise; },
-       [](Design& d, double v) { d.detector.read_noise = v; }},
-      {"max_loops",
-       "",
-       "reconstruction.max_loops",
-       "max loops",
-       "",
-       integer,
-       linear,
-       {},
-       [](const Design& d) { return double(d.reconstruction.max_loops); },
-       [](Design& d, double v) { d.reconstruction.max_loops = whole(v); }},
-      {"tolerance_m",
-       "tolerance",
-       "reconstruction.tolerance",
-       "tolerance",
-       "m",
-       continuous,
-       logarithmic,
-       {},
-       [](const Design& d) { return d.reconstruction.tolerance; },
-       [](Design& d, double v) { d.reconstruction.tolerance = v; }},
-      {"stopping", "", "reconstruction.stopping", "stopping", "", categorical, linear,
-       words<StoppingRule>(), [](const Design& d) { return double(d.reconstruction.stopping); },
-       [](Design& d, double v) { d.reconstruction.stopping = enum_of<StoppingRule>(v); }},
-      {"relaxation",
-       "relaxation_start",
-       "reconstruction.relaxation",
-       "relaxation start",
-       "",
-       continuous,
-       linear,
-       {},
-       [](const Design& d) { return d.reconstruction.relaxation_start; },
-       [](Design& d, double v) { d.reconstruction.relaxation_start = v; }},
-      {"relaxation",
-       "relaxation_end",
-       "reconstruction.relaxation",
-       "relaxation end",
-       "",
-       continuous,
-       linear,
-       {},
-       [](const Design& d) { return d.reconstruction.relaxation_end; },
-       [](Design& d, double v) { d.reconstruction.relaxation_end = v; }},
-      {"",
-       "relaxation",
-       "reconstruction.relaxation",
-       "relaxation",
-       "",
-       continuous,
-       linear,
-       {},
-       [](const Design& d) { return d.reconstruction.relaxation_start; },
-       [](Design& d, double v) {
-         d.reconstruction.relaxation_start = d.reconstruction.relaxation_end = v;
-       }},
-      {"initial_guess", "initial_guess", "reconstruction.initial_guess", "initial guess", "",
-       categorical, linear, words<InitialGuess>(),
-       [](const Design& d) { return double(d.reconstruction.initial_guess); },
-       [](Design& d, double v) { d.reconstruction.initial_guess = enum_of<InitialGuess>(v); }},
-      {"reconstruction_window",
-       "reconstruction_window",
-       "reconstruction.window",
-       "reconstruction window, pupil diameters",
-       "",
-       continuous,
-       linear,
-       {},
-       [](const Design& d) { return d.reconstruction.window; },
-       [](Design& d, double v) { d.reconstruction.window = v; }},
-      {"outside", "", "reconstruction.outside", "outside", "", categorical, linear,
-       words<OutsideDetector>(), [](const Design& d) { return double(d.reconstruction.outside); },
-       [](Design& d, double v) { d.reconstruction.outside = enum_of<OutsideDetector>(v); }},
-      {"oversampling",
-       "reconstruction_oversampling",
-       "reconstruction.oversampling",
-       "reconstruction oversampling",
-       "",
-       integer,
-       linear,
-       {},
-       [](const Design& d) { return double(d.reconstruction.oversampling); },
-       [](Design& d, double v) { d.reconstruction.oversampling = whole(v); }},
-      {"unwrapping", "", "reconstruction.unwrapping", "unwrapping", "", categorical, linear,
-       words<UnwrappingMethod>(),
-       [](const Design& d) { return double(d.reconstruction.unwrapping); },
-       [](Design& d, double v) { d.reconstruction.unwrapping = enum_of<UnwrappingMethod>(v); }}};
+  using Loop = ReconstructionOptions;
+  std::vector<DesignField> fields{
+      field<&Detector::pupil_pixels>("pupil_pixels", "pupil_pixels", "detector.pupil_pixels",
+                                     "pupil pixels"),
+      field<&Detector::window>("detector_window", "detector_window", "detector.window",
+                               "detector window, pupil diameters"),
+      field<&Detector::photons>("photons", "", "detector.photons", "photons"),
+      field<&Detector::photon_rate>("photon_rate", "", "detector.photon_rate", "photons/s"),
+      field<&Detector::exposure>("exposure_s", "exposure", "detector.exposure", "exposure", "s",
+                                 logarithmic),
+      field<&Detector::read_noise>("read_noise", "", "detector.read_noise", "read noise"),
+      field<&Loop::max_loops>("max_loops", "", "reconstruction.max_loops", "max loops"),
+      field<&Loop::tolerance>("tolerance_m", "tolerance", "reconstruction.tolerance", "tolerance",
+                              "m", logarithmic),
+      field<&Loop::stopping>("stopping", "", "reconstruction.stopping", "stopping"),
+      field<&Loop::relaxation_start>("relaxation", "relaxation_start", "reconstruction.relaxation",
+                                     "relaxation start"),
+      field<&Loop::relaxation_end>("relaxation", "relaxation_end", "reconstruction.relaxation",
+                                   "relaxation end"),
+      field<&Loop::initial_guess>("initial_guess", "initial_guess", "reconstruction.initial_guess",
+                                  "initial guess"),
+      field<&Loop::window>("reconstruction_window", "reconstruction_window",
+                           "reconstruction.window", "reconstruction window, pupil diameters"),
+      field<&Loop::outside>("outside", "", "reconstruction.outside", "outside"),
+      field<&Loop::oversampling>("oversampling", "reconstruction_oversampling",
+                                 "reconstruction.oversampling", "reconstruction oversampling"),
+      field<&Loop::unwrapping>("unwrapping", "", "reconstruction.unwrapping", "unwrapping"),
+      field<&Loop::relaxation_start>("", "relaxation", "reconstruction.relaxation", "relaxation")};
+  // In every loop the same.
+  fields.back().set = [](SensorDesign& design, double value) {
+    design.reconstruction.relaxation_start = design.reconstruction.relaxation_end = value;
+  };
+  return fields;
 }
 
 /// In the order of design_key and of tables, which archives have.
