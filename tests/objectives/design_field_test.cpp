@@ -34,9 +34,9 @@ TEST(DesignField, TogetherTheyAreAllOfADesign) {
     ++fields;
   }
   EXPECT_EQ(texts.size(), fields + 1) << "each changes the design in its own way";
-  const auto& [planes, detector, reconstruction] = SensorDesign();
-  const auto& [d1, d2, d3, d4, d5, d6] = detector;
-  const auto& [r1, r2, r3, r4, r5, r6, r7, r8, r9, r10] = reconstruction;
+  [[maybe_unused]] const auto& [planes, detector, reconstruction] = SensorDesign();
+  [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6] = detector;
+  [[maybe_unused]] const auto& [r1, r2, r3, r4, r5, r6, r7, r8, r9, r10] = reconstruction;
   EXPECT_EQ(fields, 6U + 10U) << "as many as the structs have, which these bindings count";
 }
 

@@ -117,7 +117,7 @@ TEST(ReferenceRun, SamplingIsWhatTheCodeGives) {
 TEST(ReferenceRun, BroadbandIsWhatTheCodeGives) {
   Configuration configuration = configuration_of("figure-8/paper-medium");
   configuration.set("screens.count", "1", "here");
-  Setup setup(configuration);
+  nlcwfs::Setup setup(configuration);
   const DesignTrial trial = trial_of(setup, ScreenSource(configuration), setup.options.precision,
                                      cost_of(configuration, false));
   const Performance first = trial.conditions().front().simulation->follow(design_of(configuration));
