@@ -123,7 +123,7 @@ const DesignField* find_design_property(std::string_view variable) {
 
 std::string_view unit_of_variable(std::string_view name) {
   if (const DesignField* property = find_design_property(name)) return property->unit;
-  return name == "order" ? "" : "m";
+  return name.starts_with('z') ? "m" : "";
 }
 
 }  // namespace nlcwfs

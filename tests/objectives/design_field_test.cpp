@@ -52,6 +52,7 @@ TEST(DesignField, OfASearchAreKnownByTheirNames) {
   EXPECT_EQ(unit_of_variable("pupil_pixels"), "");
   EXPECT_EQ(unit_of_variable("z_near"), "m");
   EXPECT_EQ(unit_of_variable("order"), "");
+  EXPECT_EQ(unit_of_variable("plane_count"), "");
 }
 
 }  // namespace
