@@ -25,27 +25,34 @@ using Word = std::pair<std::string_view, Enum>;
 template <class Enum>
 inline constexpr std::array<Word<Enum>, 0> word_table{};
 
+/// Those of StoppingRule.
 template <>
 inline constexpr auto word_table<StoppingRule> = std::to_array<Word<StoppingRule>>(
     {{"difference", StoppingRule::difference}, {"rms_change", StoppingRule::rms_change}});
+/// Those of InitialGuess.
 template <>
 inline constexpr auto word_table<InitialGuess> = std::to_array<Word<InitialGuess>>(
     {{"flat", InitialGuess::flat}, {"centroid", InitialGuess::centroid}});
+/// Those of OutsideDetector.
 template <>
 inline constexpr auto word_table<OutsideDetector> = std::to_array<Word<OutsideDetector>>(
     {{"free", OutsideDetector::free}, {"zero", OutsideDetector::zero}});
+/// Those of UnwrappingMethod.
 template <>
 inline constexpr auto word_table<UnwrappingMethod> =
     std::to_array<Word<UnwrappingMethod>>({{"quality_guided", UnwrappingMethod::quality_guided},
                                            {"least_squares", UnwrappingMethod::least_squares}});
+/// Those of TruthModel.
 template <>
 inline constexpr auto word_table<TruthModel> =
     std::to_array<Word<TruthModel>>({{"extended", TruthModel::extended},
                                      {"matched", TruthModel::matched},
                                      {"periodic", TruthModel::periodic}});
+/// Those of Precision.
 template <>
 inline constexpr auto word_table<Precision> = std::to_array<Word<Precision>>(
     {{"double", Precision::double_precision}, {"single", Precision::single_precision}});
+/// Those of ChromaticAberration.
 template <>
 inline constexpr auto word_table<ChromaticAberration> = std::to_array<Word<ChromaticAberration>>(
     {{"path", ChromaticAberration::path}, {"phase", ChromaticAberration::phase}});

@@ -15,6 +15,7 @@ enum class AggregateKind {
   cvar       ///< conditional value at risk: the mean of the costs beyond that quantile
 };
 
+/// Those of AggregateKind.
 template <>
 inline constexpr auto word_table<AggregateKind> =
     std::to_array<Word<AggregateKind>>({{"mean", AggregateKind::mean},

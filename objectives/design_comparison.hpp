@@ -13,6 +13,7 @@ namespace nlcwfs {
 /// What a comparison of two designs says.
 enum class Verdict { better, indistinguishable, worse };
 
+/// Those of Verdict.
 template <>
 inline constexpr auto word_table<Verdict> =
     std::to_array<Word<Verdict>>({{"better", Verdict::better},

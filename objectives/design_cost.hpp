@@ -20,11 +20,13 @@ enum class CostKind {
   error_budget  ///< error_budget_nm
 };
 
+/// Those of WavefrontErrorKind.
 template <>
 inline constexpr auto word_table<WavefrontErrorKind> =
     std::to_array<Word<WavefrontErrorKind>>({{"residual", WavefrontErrorKind::residual},
                                              {"wrapped", WavefrontErrorKind::wrapped},
                                              {"total", WavefrontErrorKind::total}});
+/// Those of CostKind.
 template <>
 inline constexpr auto word_table<CostKind> = std::to_array<Word<CostKind>>(
     {{"weighted", CostKind::weighted}, {"error_budget", CostKind::error_budget}});

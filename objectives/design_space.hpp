@@ -36,6 +36,7 @@ enum class Layout {
   free        ///< each at its own signed distance
 };
 
+/// Those of Layout.
 template <>
 inline constexpr auto word_table<Layout> =
     std::to_array<Word<Layout>>({{"symmetric", Layout::symmetric}, {"free", Layout::free}});

@@ -11,8 +11,8 @@ namespace nlcwfs {
 /// are exact in binary, a factor like 1e-9 is not: so 532nm is the same double as 532e-9.
 struct Unit {
   std::string_view name;  ///< empty for SI without a unit
-  double numerator;
-  double denominator;
+  double numerator;       ///< see above
+  double denominator;     ///< see above
 };
 
 /// Of lengths, ascending.

@@ -14,7 +14,7 @@ namespace nlcwfs {
 
 /// What became of one set of frames.
 struct SetResult {
-  FrameReconstruction frames;
+  FrameReconstruction frames;  ///< as reconstructed
   Image<double> phase;         ///< rad, piston removed, NaN outside the pupil
   double wavefront_rms = 0.0;  ///< m of path over the pupil, piston removed
   /// Relative RMS that noise alone leaves, per plane; none if not known.
@@ -29,10 +29,10 @@ std::vector<SetResult> reconstruct_sets(const GerchbergSaxton<double>& reconstru
 
 /// Everything that the files and texts are made of.
 struct FrameRun {
-  const Telescope& telescope;
-  const SensorDesign& design;
-  const MeasuredFrames& measured;
-  const std::vector<SetResult>& sets;
+  const Telescope& telescope;          ///< that saw them
+  const SensorDesign& design;          ///< of the sensor
+  const MeasuredFrames& measured;      ///< the frames
+  const std::vector<SetResult>& sets;  ///< what became of them
 };
 
 /// The mean of a set's figure.
@@ -45,14 +45,14 @@ MeanAndError mean_over_sets(const FrameRun& run, const Metric& metric) {
 
 /// A plane's figures, means over the sets.
 struct PlaneMeans {
-  MeanAndError relative_rms;
-  std::optional<MeanAndError> noise;
-  MeanAndError misfit;
-  MeanAndError correlation;
-  MeanAndError light_share;
-  MeanAndError captured_energy;
-  MeanAndError x;
-  MeanAndError y;
+  MeanAndError relative_rms;          ///< see PlaneConsistency
+  std::optional<MeanAndError> noise;  ///< see SetResult
+  MeanAndError misfit;                ///< see SetResult
+  MeanAndError correlation;           ///< see PlaneConsistency
+  MeanAndError light_share;           ///< of the light on all planes
+  MeanAndError captured_energy;       ///< see PlaneConsistency
+  MeanAndError x;                     ///< pixels that the plane stands off
+  MeanAndError y;                     ///< the same
 };
 
 /// Of each plane, in visiting order.

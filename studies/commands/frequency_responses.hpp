@@ -14,17 +14,20 @@ namespace nlcwfs {
 
 /// What the configuration asks for, checked as a whole before anything is written.
 struct ResponseTask : Setup {
+  /// @throws InputError where values do not go together
   explicit ResponseTask(const Configuration& configuration);
 
   /// Sinusoids of a frequency as the simulation's wavefronts.
   Simulation simulation_of(double frequency) const;
 
+  /// Of optical path.
   double nm_per_radian() const { return 1e9 * telescope.wavelength / (2.0 * std::numbers::pi); }
+  /// Peak.
   double amplitude_nm() const { return 1e9 * amplitude; }
 
-  ScreenSource screens;
-  int wavefronts;
-  double amplitude;  ///< peak, m
+  ScreenSource screens;  ///< whose number and seed the sinusoids have
+  int wavefronts;        ///< orientations and phases of each frequency
+  double amplitude;      ///< peak, m
   /// The configured one, then a pair of planes at each distance.
   std::vector<SensorDesign> designs;
   std::vector<double> frequencies;  ///< cycles per pupil diameter
@@ -40,13 +43,13 @@ struct AmplitudeNoise {
 
 /// How a sensor did at one frequency.
 struct FrequencyResponse {
-  MeanAndError share = {};          ///< recovered amplitude over the true one
-  MeanAndError residual_wfe = {};   ///< nm
-  MeanAndError loops = {};          ///< fractional
-  double talbot_contrast = 0.0;     ///< 1/rad, root mean square over the planes
-  double effective_contrast = 0.0;  ///< the same
-  std::optional<AmplitudeNoise> noise = {};
-  int wavefronts = 0;  ///< that it is of
+  MeanAndError share = {};                   ///< recovered amplitude over the true one
+  MeanAndError residual_wfe = {};            ///< nm
+  MeanAndError loops = {};                   ///< fractional
+  double talbot_contrast = 0.0;              ///< 1/rad, root mean square over the planes
+  double effective_contrast = 0.0;           ///< the same
+  std::optional<AmplitudeNoise> noise = {};  ///< where there is noise
+  int wavefronts = 0;                        ///< that it is of
 };
 
 /// Of each design, of each frequency.

@@ -8,6 +8,7 @@
 /// Groups of configuration keys that several commands read.
 namespace nlcwfs::keys {
 
+/// Keys or sections.
 using Keys = std::vector<std::string>;
 
 /// What every command that knows a telescope reads.

@@ -43,7 +43,7 @@ bool is_clearly_positive(const MeanAndError& difference);
 /// Z_far from 150 km on.
 PlaneMap::Condition recommended(double d_over_r0);
 
-// A metric of those at D/r0 = 4.
+/// A metric of the designs of four planes that the paper recommends, at D/r0 = 4.
 std::vector<double> of_four_planes(const SetupRuns& runs, const char* metric);
 /// @param name  "without-p3" or "without-p1"
 std::vector<double> of_three_planes(const SetupRuns& runs, const char* name, const char* metric);
@@ -83,6 +83,7 @@ class FoundAtRatios {
  private:
   std::vector<std::pair<int, Found>> all_;
 };
+/// What was found is of the type that finding it returns.
 template <class Ratios, class Find>
 FoundAtRatios(const Ratios&, const Find&) -> FoundAtRatios<std::invoke_result_t<Find, int>>;
 

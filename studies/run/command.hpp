@@ -38,7 +38,7 @@ struct CommandOption {
 
 /// One of the program's commands: what the command line, the help, the manual page, the shells'
 /// completion and the page of its runs are made from. Each is a file with its function
-/// <name>_command().
+/// evaluate_command(), ...
 struct Command {
   std::string name;         ///< as it is typed
   std::string group;        ///< of commands that belong together, which are neighbours

@@ -19,19 +19,20 @@ namespace nlcwfs {
 
 /// What the configuration asks for, checked as a whole before anything is written.
 struct SweepTask : TrialSetup {
+  /// @throws InputError where values do not go together
   explicit SweepTask(const Configuration& configuration);
 
-  DesignGrid grid;
-  DesignTrial trial;
-  DesignTrial verification;
+  DesignGrid grid;                    ///< of the section sweep
+  DesignTrial trial;                  ///< of the grid
+  DesignTrial verification;           ///< on fresh screens
   std::vector<DesignMetric> metrics;  ///< every one that the configuration says enough for
   std::size_t candidates;             ///< that are verified
 };
 
 /// How a design of the grid did, as the archive has it too.
 struct SweepOutcome {
-  MeanAndError cost{};
-  double violation = 0.0;
+  MeanAndError cost{};                     ///< see DesignTrial
+  double violation = 0.0;                  ///< of objective.limits
   std::vector<MeanAndError> metrics = {};  ///< in the order of SweepTask::metrics
   std::string failure = {};                ///< why there is none of these
 };
@@ -39,6 +40,7 @@ struct SweepOutcome {
 /// A sweep under way: what is known of its designs.
 class Sweep {
  public:
+  /// @param record  gets the evaluations
   Sweep(const SweepTask& task, RunRecord& record)
       : task_(task),
         record_(record),
@@ -49,12 +51,15 @@ class Sweep {
   /// @throws std::runtime_error where too many in a row fail
   void run(const Request& request);
 
+  /// That are to be tried.
   const std::vector<GridDesign>& designs() const { return designs_; }
   /// In the order of the designs; nothing where the sweep did not get there.
   const std::vector<std::optional<SweepOutcome>>& outcomes() const { return outcomes_; }
+  /// How many are.
   std::size_t done() const { return done_; }
   /// What the designs took, in earlier runs too, s.
   double seconds() const { return seconds_; }
+  /// Whether all are.
   bool is_complete() const { return done_ == designs_.size(); }
 
  private:

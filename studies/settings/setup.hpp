@@ -88,7 +88,7 @@ struct Setup {
   /// @throws InputError where it cannot be
   SensorDesign simulated() const;
 
-  Telescope telescope;
+  Telescope telescope;          ///< that looks
   std::vector<Seeing> seeings;  ///< Fried parameters at the telescope's wavelength
   /// What replaces the design's light, per condition; nothing where there is one light alone.
   std::vector<std::optional<double>> lights;

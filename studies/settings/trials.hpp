@@ -15,6 +15,7 @@ namespace nlcwfs {
 
 /// Where the wavefronts that designs are tried on come from: the section screens.
 struct ScreenSource {
+  /// As the section says.
   explicit ScreenSource(const Configuration& configuration);
 
   std::string file;    ///< FITS cube; empty = simulated
@@ -27,9 +28,9 @@ struct FreshScreens {
   /// @throws InputError where they would be those of the section screens
   explicit FreshScreens(const Configuration& configuration);
 
-  int count;
-  std::uint64_t seed;
-  int truth_factor;  ///< how many times finer the true field is
+  int count;           ///< how many
+  std::uint64_t seed;  ///< theirs
+  int truth_factor;    ///< how many times finer the true field is
 };
 
 /// Refuses more screens than memory is allowed for, before they are made.
@@ -67,6 +68,7 @@ DesignTrial verification_trial_of(const Setup& setup, const FreshScreens& fresh,
 
 /// A Setup with what searches and sweeps try designs under.
 struct TrialSetup : Setup {
+  /// @throws InputError where values do not go together
   explicit TrialSetup(const Configuration& configuration);
 
   /// @param pixels_vary  see cost_of
@@ -80,9 +82,9 @@ struct TrialSetup : Setup {
   /// See verification_trial_of.
   DesignTrial make_verification(bool pixels_vary) const;
 
-  ScreenSource screen_source;
-  FreshScreens fresh;
-  Precision search_precision;
+  ScreenSource screen_source;  ///< of the search
+  FreshScreens fresh;          ///< of the verification
+  Precision search_precision;  ///< of trials and scans
   DesignCost cost_if_varying;  ///< of designs that differ in their pixels across the pupil
   DesignCost cost_if_not;      ///< of others
 };
