@@ -171,6 +171,7 @@ void print_advice(const LawFile& file, const Site& site, const SensorDesign& des
   if (verified) fmt::print("{}", captured_energy_warnings(design, verified->performances.front()));
 }
 
+/// Long, as what is simulated is optional in each of its steps.
 void run_advise(const Request& request) {
   const Configuration& configuration = request.configuration;
   require_one_condition(configuration);

@@ -1,4 +1,5 @@
 // evaluate: One design's performance on the configured screens.
+#include "model/words.hpp"
 #include "results/archive/run_files.hpp"
 #include "results/tables/design_summary.hpp"
 #include "results/tables/json_numbers.hpp"
@@ -63,7 +64,7 @@ void run_evaluate(const Request& request) {
   record.print("{}\n\n", telescope_line(telescope, seeing));
   record.print("{}\n", planes_table(design, telescope, seeing, &performance));
   record.print("On {} screen{}, {} truth:\n{}", performance.screens.size(),
-               performance.screens.size() == 1 ? "" : "s", configuration.choice("simulation.truth"),
+               performance.screens.size() == 1 ? "" : "s", word_of(setup.options.truth),
                performance_table({{"mean +- standard error", &performance, tried.costs}}));
   if (performance.screens.size() == 1) {
     record.print("note: one screen has no standard error; screens.count = 16 or more has\n");

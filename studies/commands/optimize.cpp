@@ -1,5 +1,6 @@
 // optimize: The best design of the configured search, verified on fresh screens beside the
 // baseline.
+#include "model/words.hpp"
 #include "results/archive/run_files.hpp"
 #include "results/pictures/search_pictures.hpp"
 #include "results/tables/design_summary.hpp"
@@ -184,7 +185,7 @@ void run_optimize(const Request& request) {
        {"search_seconds", result.search_seconds},
        {"termination", to_string(result.search.termination)},
        {"stages", stages_array(result.search)}});
-  print_result(task, result, configuration.choice("search.precision"), notes);
+  print_result(task, result, word_of(task.search_precision), notes);
   record.close();
 }
 

@@ -1,5 +1,6 @@
 // response: How much of single spatial frequencies one design recovers, and pairs of planes do,
 // beside what theory expects.
+#include "model/words.hpp"
 #include "results/tables/design_summary.hpp"
 #include "results/tables/json_numbers.hpp"
 #include "results/text/design_text.hpp"
@@ -62,8 +63,7 @@ std::string design_table(const ResponseTask& task,
 }
 
 void run_response(const Request& request) {
-  const Configuration& configuration = request.configuration;
-  ResponseTask task(configuration);
+  ResponseTask task(request.configuration);
   const std::size_t asked = task.frequencies.size();
   RunRecord record(request);
   const Responses responses = measured_responses(task, request.whole);
@@ -98,7 +98,7 @@ void run_response(const Request& request) {
       "Sinusoids of {} (peak), cycles per pupil diameter, in {} orientations and phases, {} "
       "truth;\n"
       "beside what was recovered the contrast of a radian in the images, RMS of the planes:\n{}",
-      format_length(task.amplitude), task.wavefronts, configuration.choice("simulation.truth"),
+      format_length(task.amplitude), task.wavefronts, word_of(task.options.truth),
       design_table(task, responses.front()));
   if (!task.distances.empty()) {
     record.print("\nPairs of planes at {} distances are in response.csv and response-map-*.svg.\n",

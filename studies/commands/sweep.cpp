@@ -1,6 +1,7 @@
 // sweep: Every design of the configured grid, the best of them verified on fresh screens.
 #include "studies/search/sweep.hpp"
 
+#include "model/words.hpp"
 #include "objectives/design_space.hpp"
 #include "results/archive/run_files.hpp"
 #include "results/pictures/grid_picture.hpp"
@@ -262,7 +263,7 @@ void run_sweep(const Request& request) {
           sweep.outcomes(), [](const auto& outcome) { return !outcome->failure.empty(); })),
       .taken_over = taken_over,
       .seconds = sweep.seconds(),
-      .precision = configuration.choice("search.precision")};
+      .precision = std::string(word_of(task.search_precision))};
   Json summary = summary_of(task, result, grid);
   summary["wall_seconds"] = seconds_before + stopwatch.seconds();
   summary["search_seconds"] = sweep.seconds();

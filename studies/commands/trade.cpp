@@ -1,5 +1,6 @@
 // trade: The designs that no other betters in all of the configured objectives, verified on fresh
 // screens.
+#include "model/words.hpp"
 #include "results/archive/run_files.hpp"
 #include "results/pictures/scatter_picture.hpp"
 #include "results/tables/csv_table.hpp"
@@ -197,7 +198,7 @@ std::string search_text(const TradeSearch& task, const TradeResult& result,
       fmt::format("Tried {} designs of {} planes on {} screens{} in {} precision in {}, {}",
                   result.search.evaluations, planes, task.trial.screen_count(),
                   conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "",
-                  configuration.choice("search.precision"), duration_text(result.search_seconds),
+                  word_of(task.search_precision), duration_text(result.search_seconds),
                   ending_text(result.search.termination));
   if (result.search.failures > 0) {
     text += fmt::format("; {} of them failed, see search.csv", result.search.failures);

@@ -259,6 +259,7 @@ ClaimFinding pairs_exchange(const SetupRuns& runs) {
           is_told ? verdict_of(both_within(0.1), both_within(0.3)) : ClaimVerdict::open};
 }
 
+/// Long, as it is the table of them.
 std::vector<ClaimRule> claims() {
   constexpr std::string_view by_chance =
       "rms_change ends where the RMS passes an extremum, right or not, so residuals scatter";

@@ -16,6 +16,7 @@ struct Variant {
   int times_screens = 1;  ///< how many times as many wavefronts
 };
 
+/// Long, as it is the table of them.
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all{
       {"as-the-paper"},

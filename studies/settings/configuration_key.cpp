@@ -128,6 +128,7 @@ std::string ConfigurationKey::allowed() const {
   return {};
 }
 
+/// Long, as it has a case for each kind.
 bool ConfigurationKey::accepts(std::string_view value) const {
   // A dump has each value in a line.
   if (std::ranges::any_of(value, [](char c) { return is_control(c) && c != '\t'; })) return false;

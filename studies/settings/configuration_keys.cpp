@@ -109,6 +109,7 @@ std::vector<std::string> optimizer_names() {
   return names;
 }
 
+/// Long, as it is the table.
 std::vector<ConfigurationKey> make_keys() {
   std::vector<ConfigurationKey> keys{
       {.name = "telescope.diameter",
