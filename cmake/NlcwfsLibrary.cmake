@@ -5,8 +5,14 @@ if(NLCWFS_WARNINGS_AS_ERRORS)
   list(APPEND NLCWFS_WARNINGS -Werror)
 endif()
 
-# For code without hot loops, which takes long to compile.
-set(NLCWFS_LIGHT_OPTIMIZATION $<$<CONFIG:Release>:-O1>)
+# nlcwfs_compile_fast(TARGET OPTIMIZATION): for code that has no hot loops and takes longest to compile.
+# Several files are compiled at once, so that their helpers must have different names; the presets but
+# release compile each alone, so that it is known to include what it uses.
+function(nlcwfs_compile_fast target optimization)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimization}>)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${NLCWFS_JOINED_COMPILATION}
+                                             UNITY_BUILD_BATCH_SIZE 4)
+endfunction()
 
 function(nlcwfs_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})

@@ -103,7 +103,7 @@ std::string values_text(const Command& command) {
 }
 
 /// "nlcwfs compare SWEEP OPTIMIZE".
-std::string usage_words(const Command& command) {
+std::string usage_line(const Command& command) {
   std::string words = "nlcwfs " + command.name;
   for (const CommandArgument& argument : command.arguments) words += ' ' + argument.name;
   return words;
@@ -137,7 +137,7 @@ std::string program_help() {
 }
 
 std::string command_help(const Command& command) {
-  std::string text = fmt::format("Usage: {} [OPTION]...\n\n{}.\n\n", usage_words(command),
+  std::string text = fmt::format("Usage: {} [OPTION]...\n\n{}.\n\n", usage_line(command),
                                  with_capital(command.description));
   text += paragraph(command.about) + "\nExamples:\n";
   for (const std::string& example : command.examples) {

@@ -29,7 +29,7 @@ struct Completed {
   bool is_folder;                    ///< whether the name of a folder follows
 };
 
-std::vector<Completed> all_options() {
+std::vector<Completed> completed_options() {
   std::vector<Completed> all;
   for (const ProgramOption& option : program_options()) {
     all.push_back({.name = option.name,
@@ -74,7 +74,7 @@ std::string first_comment(std::string_view shell) {
 template <class Filter>
 std::string patterns(const Filter& filter) {
   std::vector<std::string> names;
-  for (const Completed& option : all_options()) {
+  for (const Completed& option : completed_options()) {
     if (filter(option)) names.push_back("--" + option.name);
   }
   return fmt::format("{}", fmt::join(names, "|"));
@@ -85,7 +85,7 @@ std::string patterns(const Filter& filter) {
 /// variables `command`, `before` (the word before) and `current`.
 std::string candidates() {
   std::string text = "  case $before in\n";
-  for (const Completed& option : all_options()) {
+  for (const Completed& option : completed_options()) {
     if (option.choices.empty()) continue;
     text += fmt::format("    --{}) candidates='{}'; return ;;\n", option.name,
                         fmt::join(option.choices, " "));
@@ -181,7 +181,7 @@ std::string fish_completion() {
                                           : fmt::format("{}", fmt::join(choices, " ")));
     }
   }
-  for (const Completed& option : all_options()) {
+  for (const Completed& option : completed_options()) {
     std::vector<std::string> takers;
     for (const Command& command : commands()) {
       if (std::ranges::count(words_of(&command), "--" + option.name) > 0) {

@@ -46,7 +46,7 @@ Json stages_array(const SearchResult& result) {
 }
 
 /// How the search ended, for people.
-std::string_view ending_text(Termination termination) {
+std::string_view search_ending(Termination termination) {
   switch (termination) {
     case Termination::converged:
       return "until nothing got better";
@@ -71,7 +71,7 @@ std::string search_text(const DesignSearch& task, const DesignSearchResult& resu
       "Tried {} designs on {} screens{} in {} precision in {}, {}", result.search.evaluations,
       task.trial.screen_count(),
       conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "", precision,
-      duration_text(result.search_seconds), ending_text(result.search.termination));
+      duration_text(result.search_seconds), search_ending(result.search.termination));
   if (result.cheap_evaluations > 0) {
     text += fmt::format("; before that {} in the cheap search", result.cheap_evaluations);
   }

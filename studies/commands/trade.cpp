@@ -174,7 +174,7 @@ std::string figure_text(const DesignMetric& metric, const MeanAndError& value) {
 }
 
 /// How the search ended, for people.
-std::string_view ending_text(Termination termination) {
+std::string_view trade_ending(Termination termination) {
   switch (termination) {
     case Termination::budget_exhausted:
       return "all that trade.budget allows";
@@ -199,7 +199,7 @@ std::string search_text(const TradeSearch& task, const TradeResult& result,
                   result.search.evaluations, planes, task.trial.screen_count(),
                   conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "",
                   word_of(task.search_precision), duration_text(result.search_seconds),
-                  ending_text(result.search.termination));
+                  trade_ending(result.search.termination));
   if (result.search.failures > 0) {
     text += fmt::format("; {} of them failed, see search.csv", result.search.failures);
   }

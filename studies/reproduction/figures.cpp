@@ -13,7 +13,7 @@
 namespace nlcwfs {
 namespace {
 
-constexpr const char* key = "reproduce.figures";
+constexpr const char* figures_key = "reproduce.figures";
 
 std::vector<std::string> names_in(const std::string& text) {
   std::vector<std::string> names;
@@ -25,17 +25,18 @@ std::vector<std::string> names_in(const std::string& text) {
 }  // namespace
 
 std::vector<std::string> figures_of(const Configuration& configuration) {
-  const std::string& text = configuration.text(key);
-  const std::vector<std::string> known = names_in(Configuration().text(key));
+  const std::string& text = configuration.text(figures_key);
+  const std::vector<std::string> known = names_in(Configuration().text(figures_key));
   std::vector<std::string> figures = names_in(text);
   for (const std::string& figure : figures) {
     if (std::ranges::count(known, figure) == 0) {
-      throw InputError(key, one_line(text), fmt::format("a list of {}", fmt::join(known, ", ")));
+      throw InputError(figures_key, one_line(text),
+                       fmt::format("a list of {}", fmt::join(known, ", ")));
     }
   }
   for (const std::string& figure : figures) {
     if (std::ranges::count(figures, figure) > 1) {
-      throw InputError(key, one_line(text),
+      throw InputError(figures_key, one_line(text),
                        fmt::format("each value once, but {} is twice", figure));
     }
   }

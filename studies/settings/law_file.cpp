@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view conditions_source = "among the conditions";
 
 /// A value of a file with its name there, such as `data[2].d_over_r0`.
-struct Field {
+struct JsonField {
   std::string name;
   const Json& json;
 
@@ -34,7 +34,7 @@ struct Field {
   }
 
   /// Demands an object with no other members.
-  const Field& with_members(const std::vector<std::string_view>& members) const {
+  const JsonField& with_members(const std::vector<std::string_view>& members) const {
     const std::string allowed = fmt::format("an object with {}", fmt::join(members, ", "));
     if (!json.is_object()) refuse(allowed);
     for (const auto& item : json.items()) {
@@ -46,18 +46,18 @@ struct Field {
     return *this;
   }
 
-  Field operator[](std::string_view member) const {
+  JsonField operator[](std::string_view member) const {
     const auto found = json.find(member);
     if (found == json.end()) throw InputError(member_name(member), one_line(""), "is missing");
     return {member_name(member), *found};
   }
 
   /// Demands a list, of `size` elements unless that is 0.
-  std::vector<Field> elements(std::size_t size = 0) const {
+  std::vector<JsonField> elements(std::size_t size = 0) const {
     if (!json.is_array() || (size != 0 && json.size() != size)) {
       refuse(size == 0 ? "a list" : fmt::format("a list of {}", size));
     }
-    std::vector<Field> fields;
+    std::vector<JsonField> fields;
     for (const Json& element : json) {
       fields.push_back({fmt::format("{}[{}]", name, fields.size()), element});
     }
@@ -91,38 +91,38 @@ std::vector<std::string_view> quantities_and(std::vector<std::string_view> first
   return first;
 }
 
-Configuration conditions_of(const Field& field) {
+Configuration conditions_of(const JsonField& field) {
   if (!field.json.is_object()) field.refuse("an object of configuration keys and their values");
   Configuration conditions;
   for (const auto& item : field.json.items()) {
-    const Field value{fmt::format("{}.{}", field.name, one_line(item.key())), item.value()};
+    const JsonField value{fmt::format("{}.{}", field.name, one_line(item.key())), item.value()};
     conditions.set(item.key(), value.text(), conditions_source);
   }
   return conditions;
 }
 
-ScalingDatum datum_of(const Field& field) {
+ScalingDatum datum_of(const JsonField& field) {
   field.with_members(quantities_and({"d_over_r0"}));
   ScalingDatum datum;
   datum.d_over_r0 = field["d_over_r0"].number();
   for (const ScalingQuantity& quantity : scaling_quantities()) {
-    const Field value = field[quantity.name].with_members({"mean", "standard_error"});
+    const JsonField value = field[quantity.name].with_members({"mean", "standard_error"});
     datum.*quantity.datum = {value["mean"].number(), value["standard_error"].number()};
   }
   return datum;
 }
 
-LawLine line_of(const Field& field) {
+LawLine line_of(const JsonField& field) {
   field.with_members({"intercept", "slope", "covariance", "scatter"});
   LawLine line{.intercept = field["intercept"].number(),
                .slope = field["slope"].number(),
                .covariance = {},
                .scatter = field["scatter"].number()};
   if (!(line.scatter >= 0.0)) field["scatter"].refuse("at least 0");
-  const Field covariance = field["covariance"];
+  const JsonField covariance = field["covariance"];
   Eigen::Index row = 0;
-  for (const Field& values : covariance.elements(2)) {
-    const std::vector<Field> columns = values.elements(2);
+  for (const JsonField& values : covariance.elements(2)) {
+    const std::vector<JsonField> columns = values.elements(2);
     line.covariance.row(row++) << columns[0].number(), columns[1].number();
   }
   const Eigen::Matrix2d& matrix = line.covariance;
@@ -133,15 +133,15 @@ LawLine line_of(const Field& field) {
   return line;
 }
 
-std::array<int, 4> order_of(const Field& field) {
+std::array<int, 4> order_of(const JsonField& field) {
   std::vector<int> order;
-  for (const Field& plane : field.elements()) order.push_back(plane.integer());
+  for (const JsonField& plane : field.elements()) order.push_back(plane.integer());
   validate_order(order);
   return {order[0], order[1], order[2], order[3]};
 }
 
 /// Replaces what was fitted by the file's own lines and range.
-void read_lines(const Field& field, ScalingLaw& law) {
+void read_lines(const JsonField& field, ScalingLaw& law) {
   law.least_d_over_r0 = field["least_d_over_r0"].number();
   law.greatest_d_over_r0 = field["greatest_d_over_r0"].number();
   if (!(law.least_d_over_r0 > 0.0)) field["least_d_over_r0"].refuse("above 0");
@@ -161,12 +161,12 @@ void read_lines(const Field& field, ScalingLaw& law) {
 }
 
 LawFile law_file_of(const Json& json) {
-  const Field root{"", json};
+  const JsonField root{"", json};
   root.with_members({"conditions", "data", "law"});
   LawFile file;
   file.conditions = conditions_of(root["conditions"]);
-  for (const Field& datum : root["data"].elements()) file.data.push_back(datum_of(datum));
-  const Field law =
+  for (const JsonField& datum : root["data"].elements()) file.data.push_back(datum_of(datum));
+  const JsonField law =
       root["law"].with_members(quantities_and({"order", "least_d_over_r0", "greatest_d_over_r0"}));
   file.law = fit_scaling_law(file.data, order_of(law["order"]));
   if (law.json.size() > 1) read_lines(law, file.law);

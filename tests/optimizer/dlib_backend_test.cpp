@@ -102,20 +102,20 @@ TEST(DlibBackend, BeginsWithTheStartsAndThenTriesEverySubSpace) {
 }
 
 TEST(DlibBackend, FindsTheRegionOfTheLowestPoint) {
-  struct Goal {
+  struct Region {
     TestProblem problem;
     double gap;  ///< the largest of the seeds was at most two thirds of it when this was written
   };
-  const std::vector<Goal> goals{
+  const std::vector<Region> regions{
       {branin(), 0.5},      {rastrigin(), 0.05},          {levy(4), 1.5},
       {sensors(), 0.8},     {whole_numbers(), 0.5},       {limited(), 0.05},
       {nan_region(), 0.05}, {with_noise(sensors()), 0.8}, {failing_sensors(), 0.8}};
-  for (const Goal& goal : goals) {
-    SCOPED_TRACE(goal.problem.name);
+  for (const Region& region : regions) {
+    SCOPED_TRACE(region.problem.name);
     for (const std::uint64_t seed : {1, 2}) {
-      const DlibRun result = run(goal.problem, {.max_evaluations = 120, .seed = seed});
+      const DlibRun result = run(region.problem, {.max_evaluations = 120, .seed = seed});
       EXPECT_EQ(result.best->violation, 0.0);
-      EXPECT_LT(result.best->cost - goal.problem.minimum, goal.gap) << "seed " << seed;
+      EXPECT_LT(result.best->cost - region.problem.minimum, region.gap) << "seed " << seed;
     }
   }
 }

@@ -38,6 +38,8 @@ class Program : public ScratchFolder {
                                  "[screens]\ncount = 2\n"
                                  "[verify]\nscreens = 2\n"
                                  "[search]\nbudget = 6\n"
+                                 "[trade]\nbudget = 48\n"
+                                 "[law]\nd_over_r0 = 3,4,5,6\n"
                                  "[sweep]\nz_near = 30km,60km\n";
   }
 

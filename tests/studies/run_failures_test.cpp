@@ -20,7 +20,7 @@ namespace {
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 class RunFailures : public Program {
  protected:
@@ -31,7 +31,7 @@ class RunFailures : public Program {
     std::ofstream("tiny.cfg", std::ios::app) << "[verify]\ncandidates = 3\n";
   }
 
-  static Json summary() { return Json::parse(contents("run/summary.json")); }
+  static OrderedJson summary() { return OrderedJson::parse(contents("run/summary.json")); }
 
   static Configuration configuration() {
     Configuration configuration;
@@ -41,7 +41,7 @@ class RunFailures : public Program {
 
   /// From now on the archive knows that the design failed in a trial, and the run has not ended.
   static void let_fail(
-      const Json& design,
+      const OrderedJson& design,
       const DesignTrial& trial = TrialSetup(configuration()).make_verification(false)) {
     Archive::reopened("run/archive.sqlite")
         .keep(trial.identity(), exact_text(design_from_json(design)),
@@ -60,7 +60,7 @@ class RunFailures : public Program {
   /// Lets the best design of a finished run fail, then goes on with it.
   static void expect_the_next_is_the_best(const std::string& command) {
     done(command, "run");
-    const Json before = summary()["ranking"];
+    const OrderedJson before = summary()["ranking"];
     ASSERT_EQ(before.size(), 3u);
     let_fail(before[0]);
     const ProgramRun resumed = run({command, "--resume", "run"});
@@ -69,7 +69,7 @@ class RunFailures : public Program {
         resumed.errors,
         AllOf(HasSubstr("the design of the planes "),
               HasSubstr(" km failed on the fresh screens: the light went out; it is left out\n")));
-    const Json after = summary()["ranking"];
+    const OrderedJson after = summary()["ranking"];
     ASSERT_EQ(after.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(after[i]["planes_m"], before[i + 1]["planes_m"]);
@@ -93,7 +93,7 @@ TEST_F(RunFailures, ASweepLeavesOutADesignThatFailsInTheVerification) {
 TEST_F(RunFailures, ASearchLeavesOutADesignThatFailsInTheVerification) {
   expect_the_next_is_the_best("optimize");
   // How far its variables may move, too, is that of the design that is the best now.
-  const Json ranges = summary()["indistinguishable"];
+  const OrderedJson ranges = summary()["indistinguishable"];
   ASSERT_FALSE(ranges.empty());
   std::vector<double> planes = summary()["best"]["planes_m"];
   EXPECT_NEAR(ranges["z_far"]["best"].get<double>(), *std::ranges::max_element(planes), 1e-6);
@@ -102,7 +102,7 @@ TEST_F(RunFailures, ASearchLeavesOutADesignThatFailsInTheVerification) {
 TEST_F(RunFailures, ATradeLeavesOutADesignThatFailsInTheVerification) {
   const Arguments small{"--trade.budget", "16", "--trade.population", "8"};
   done("trade", "run", small);
-  const Json before = summary()["front"];
+  const OrderedJson before = summary()["front"];
   ASSERT_GE(before.size(), 2u);
   let_fail(before[0]);
   const ProgramRun resumed = run({"trade", "--resume", "run"});
@@ -113,8 +113,8 @@ TEST_F(RunFailures, ATradeLeavesOutADesignThatFailsInTheVerification) {
 
 TEST_F(RunFailures, WithoutADesignThatIsVerifiedARunSaysHowToKeepWhatItHas) {
   done("sweep", "run");
-  const Json ranking = summary()["ranking"];
-  for (const Json& design : ranking) let_fail(design);
+  const OrderedJson ranking = summary()["ranking"];
+  for (const OrderedJson& design : ranking) let_fail(design);
   const ProgramRun resumed = run({"sweep", "--resume", "run"});
   EXPECT_EQ(resumed.exit_code, 1);
   EXPECT_THAT(resumed.errors,
@@ -129,7 +129,7 @@ TEST_F(RunFailures, WithoutADesignThatIsVerifiedARunSaysHowToKeepWhatItHas) {
   std::ranges::set_intersection(trials, again, std::back_inserter(taken_over));
   EXPECT_EQ(taken_over.size(), 4u);
   EXPECT_EQ(again.size(), 4u + 3u);
-  EXPECT_EQ(Json::parse(contents("again/summary.json"))["ranking"].size(), 3u);
+  EXPECT_EQ(OrderedJson::parse(contents("again/summary.json"))["ranking"].size(), 3u);
 }
 
 TEST_F(RunFailures, ASearchWhoseScanFailsSaysHowToGoOn) {

@@ -163,8 +163,9 @@ TEST_F(EvaluationTableTest, FitsIntoTheMemoryThatIsAllowed) {
   // The rows need not have what the columns are for.
   Json list = Json::array();
   for (int i = 0; i < 30000; ++i) list.push_back({{"x", i}});
-  Json& many = list[0]["x"] = Json::object();
-  for (int i = 0; i < 30000; ++i) many[std::to_string(i)] = "";
+  Json::object_t many;  // whose own insertion would look through all names
+  for (int i = 0; i < 30000; ++i) many.emplace_back(std::to_string(i), "");
+  list[0]["x"] = std::move(many);
   EXPECT_THAT([&] { evaluation_table(list); },
               testing::ThrowsMessage<std::runtime_error>(
                   AllOf(HasSubstr("evaluations with 30007 columns takes 16 GiB"),

@@ -46,7 +46,8 @@ TEST_F(Law, IsFittedToTheBestDesignsAndFollowedByAdvise) {
 
 TEST_F(Law, AnInterruptedOneKeepsWhatIsDone) {
   const ProgramRun stopped =
-      run({"law", "--config", "tiny.cfg", "--output", "run", "--search.budget", "1000000"},
+      run({"law", "--config", "tiny.cfg", "--output", "run", "--search.budget", "1000000",
+           "--law.d_over_r0", "3,4,5,6,8,10"},
           // In the foreground, or timeout signals the process and its group: twice.
           "timeout --foreground --preserve-status --signal INT 2 ");
   EXPECT_EQ(stopped.exit_code, 3);

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 class Report : public Program {
  protected:
@@ -61,8 +61,8 @@ TEST_F(Report, IsMadeByTheRunAndTheSameAgain) {
 
 TEST_F(Report, HasTheNumbersOfTheFolder) {
   done("optimize", "run");
-  const Json data = page_data("run", command_of_run("run"));
-  const Json written = Json::parse(contents("run/summary.json"));
+  const OrderedJson data = page_data("run", command_of_run("run"));
+  const OrderedJson written = OrderedJson::parse(contents("run/summary.json"));
   EXPECT_EQ(data.at("command"), "optimize");
   EXPECT_EQ(data.at("version"), written.at("version"));
   EXPECT_EQ(data.at("summary").at("best"), written.at("best"));
@@ -73,7 +73,7 @@ TEST_F(Report, HasTheNumbersOfTheFolder) {
   EXPECT_NEAR(data.at("talbot_m"), 2.0 * 0.125 * 0.125 / 532e-9, 1e-6);
   EXPECT_THAT(data.at("telescope").get<std::string>(), StartsWith("0.5 m telescope at 532 nm"));
   EXPECT_THAT(data.at("verdict").get<std::string>(), HasSubstr("aseline"));
-  const Json& search = data.at("tables").at("search.csv");
+  const OrderedJson& search = data.at("tables").at("search.csv");
   EXPECT_EQ(search.at("evaluation").size(), written.at("evaluations"));
   EXPECT_TRUE(search.at("cost").at(0).is_number());
   EXPECT_TRUE(search.at("planes_m").at(0).is_string());
@@ -86,7 +86,7 @@ TEST_F(Report, SaysWhatIsMissing) {
     std::filesystem::remove(std::filesystem::path("run") / file);
   }
   EXPECT_EQ(run({"report", "run"}).exit_code, 0);
-  const Json data = page_data("run", command_of_run("run"));
+  const OrderedJson data = page_data("run", command_of_run("run"));
   EXPECT_THAT(data.at("notes").dump(),
               AllOf(HasSubstr("Not in the folder"), HasSubstr("search.csv"), HasSubstr("best.cfg"),
                     HasSubstr("config.cfg")));
@@ -99,7 +99,7 @@ TEST_F(Report, SaysWhatItCannotRead) {
   replace_in("run/config.cfg", "[telescope]\n", "[telescope]\nwing_span = 3\n");
   replace_in("run/summary.json", "\"improvement\"", "\"improvements\"");
   EXPECT_EQ(run({"report", "run"}).exit_code, 0);
-  const Json data = page_data("run", command_of_run("run"));
+  const OrderedJson data = page_data("run", command_of_run("run"));
   EXPECT_THAT(data.at("notes").dump(),
               AllOf(HasSubstr("search.csv"), HasSubstr("wing_span"), HasSubstr("verdict")));
   EXPECT_FALSE(data.contains("verdict"));
@@ -134,7 +134,7 @@ TEST_F(Report, AnEmptySummaryIsStillAPage) {
   for (const Command& command : commands()) {
     const std::set<std::string> without_folder{"report", "manual", "completion"};
     if (without_folder.contains(command.name)) continue;
-    std::ofstream("run/summary.json") << Json{{"command", command.name}};
+    std::ofstream("run/summary.json") << OrderedJson{{"command", command.name}};
     const ProgramRun finished = run({"report", "run"});
     EXPECT_EQ(finished.exit_code, 0) << command.name << finished.errors;
     EXPECT_THAT(page_data("run", command_of_run("run")).at("notes"), Not(IsEmpty()));
@@ -143,9 +143,9 @@ TEST_F(Report, AnEmptySummaryIsStillAPage) {
 
 TEST_F(Report, AFrontsConfigurationsAreItsDesigns) {
   done("trade", "run", {"--trade.budget", "16", "--trade.population", "8"});
-  const Json data = page_data("run", command_of_run("run"));
-  const Json& front = data.at("summary").at("front");
-  const Json& texts = data.at("front_configurations");
+  const OrderedJson data = page_data("run", command_of_run("run"));
+  const OrderedJson& front = data.at("summary").at("front");
+  const OrderedJson& texts = data.at("front_configurations");
   ASSERT_EQ(texts.size(), front.size());
   ASSERT_GT(front.size(), 1u);
   for (std::size_t i = 0; i < std::min<std::size_t>(front.size(), 4); ++i) {
@@ -153,8 +153,8 @@ TEST_F(Report, AFrontsConfigurationsAreItsDesigns) {
     const std::string folder = fmt::format("design-{}", i);
     const ProgramRun tried = run({"evaluate", "--config", "design.cfg", "--output", folder});
     ASSERT_EQ(tried.exit_code, 0) << tried.errors;
-    Json design = Json::parse(contents(folder + "/summary.json")).at("design");
-    Json expected = front.at(i);
+    OrderedJson design = OrderedJson::parse(contents(folder + "/summary.json")).at("design");
+    OrderedJson expected = front.at(i);
     // Measured on other screens.
     for (const char* measured : {"performance", "cost", "violation"}) design.erase(measured);
     for (const auto& [name, value] : design.items()) EXPECT_EQ(value, expected.at(name)) << name;
@@ -163,9 +163,9 @@ TEST_F(Report, AFrontsConfigurationsAreItsDesigns) {
 
 TEST_F(Report, MarksTheBestOfASweep) {
   done("sweep", "run", {"--sweep.z_far", "100km,150km", "--sweep.relaxation", "0,0.3"});
-  const Json data = page_data("run", command_of_run("run"));
-  const Json& axes = data.at("summary").at("grid").at("axes");
-  const Json& place = data.at("best_place");
+  const OrderedJson data = page_data("run", command_of_run("run"));
+  const OrderedJson& axes = data.at("summary").at("grid").at("axes");
+  const OrderedJson& place = data.at("best_place");
   ASSERT_EQ(place.size(), axes.size());
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const auto values = axes.at(axis).at("values").get<std::vector<double>>();
@@ -175,7 +175,8 @@ TEST_F(Report, MarksTheBestOfASweep) {
 
 TEST_F(Report, OfAnotherCommandNeedsNoConfiguration) {
   done("screens", "run", {"--screens.count", "3"});
-  const Json images = page_data("run", command_of_run("run")).at("images").at("screens.fits");
+  const OrderedJson images =
+      page_data("run", command_of_run("run")).at("images").at("screens.fits");
   EXPECT_EQ(images.at("unit"), "rad");
   EXPECT_EQ(images.at("count"), 3);
   EXPECT_EQ(images.at("slices").size(), 3u);

@@ -15,11 +15,11 @@ using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* here = "on the command line";
+constexpr std::string_view given = "on the command line";
 
 Configuration with(std::initializer_list<std::pair<const char*, const char*>> values) {
   Configuration configuration;
-  for (const auto& [key, value] : values) configuration.set(key, value, here);
+  for (const auto& [key, value] : values) configuration.set(key, value, given);
   return configuration;
 }
 
@@ -314,7 +314,7 @@ TEST(Settings, TheVerificationHasFourTimesTheSearchsScreensUnlessSaidOtherwise) 
 TEST(Settings, ThePapersPresetKeepsItsFresnelNumbersAtAnotherTelescope) {
   Configuration configuration;
   configuration.apply_preset("paper");
-  configuration.set("telescope.diameter", "1m", here);
+  configuration.set("telescope.diameter", "1m", given);
   scale_default_planes(configuration);
   EXPECT_THAT(configuration.lengths("sensor.planes"), ElementsAre(-188e3, 188e3, -720e3, 720e3));
 }
