@@ -20,13 +20,13 @@ namespace nlcwfs {
 
 /// One evaluation of a design, as it is archived.
 struct ArchivedEvaluation {
-  std::string stage;        ///< "evaluate", "search", "sweep", "verify"
-  std::string design;       ///< JSON, see design_summary.hpp
-  double cost = 0.0;        ///< NaN where there is none
-  std::string failure;      ///< why there is no cost; empty where there is one
-  double seconds = 0.0;     ///< how long it took, s
-  std::string performance;  ///< JSON; empty where the evaluation failed
-  std::string key = {};     ///< what identifies the design among the run's; may be empty
+  std::string stage;             ///< "evaluate", "search", "sweep", "verify"
+  std::string design;            ///< JSON, see design_summary.hpp
+  double cost = 0.0;             ///< NaN where there is none
+  std::string failure = {};      ///< why there is no cost; empty where there is one
+  double seconds = 0.0;          ///< how long it took, s
+  std::string performance = {};  ///< JSON; empty where the evaluation failed
+  std::string key = {};          ///< what identifies the design among the run's; may be empty
 };
 
 /// What is known of a design in a trial, as it is archived: see TrialMemory.

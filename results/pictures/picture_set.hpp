@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nlcwfs {
@@ -17,6 +18,14 @@ struct PlannedPicture {
   /// Draws it at a path without .svg and .png; why there is none, or nothing where there is one.
   std::function<std::optional<std::string>(const std::filesystem::path& stem)> draw;
 };
+
+/// One that write_picture() draws.
+template <class Picture>
+PlannedPicture planned(std::string name, Picture picture) {
+  return {std::move(name), [picture = std::move(picture)](const auto& stem) {
+            return write_picture(picture, stem);
+          }};
+}
 
 /// Draws pictures, several at a time.
 /// @return a line for each reason why there are no pictures

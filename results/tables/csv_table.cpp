@@ -41,6 +41,10 @@ CsvTable& CsvTable::add(std::string_view text) {
   return *this;
 }
 
+CsvTable& CsvTable::add(const std::optional<double>& value) {
+  return value ? add(*value) : add("");
+}
+
 namespace {
 
 /// The cells of the next line; none at the end of the text.

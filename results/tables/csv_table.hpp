@@ -1,8 +1,11 @@
 // CSV is written and read.
 #pragma once
 
+#include "model/statistics.hpp"
+
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +24,10 @@ class CsvTable {
   CsvTable& add(double value);  ///< the shortest digits that read back as the same number
   /// Quoted where it must be.
   CsvTable& add(std::string_view text);
+  /// An empty cell where there is none.
+  CsvTable& add(const std::optional<double>& value);
+  /// Two cells: the mean and its standard error.
+  CsvTable& add(const MeanAndError& value) { return add(value.mean).add(value.standard_error); }
 
   /// The table as a file has it.
   std::string text() const { return text_ + '\n'; }

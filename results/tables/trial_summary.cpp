@@ -2,7 +2,6 @@
 #include "results/tables/trial_summary.hpp"
 
 #include "results/tables/csv_table.hpp"
-#include "results/tables/design_summary.hpp"
 #include "results/text/design_text.hpp"
 
 #include <fmt/format.h>

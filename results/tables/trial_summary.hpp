@@ -2,6 +2,7 @@
 #pragma once
 
 #include "objectives/design_trial.hpp"
+#include "results/tables/design_summary.hpp"
 
 #include <string>
 
