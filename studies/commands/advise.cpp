@@ -1,35 +1,22 @@
 // advise: The planes that the scaling law gives for the configured telescope and seeing, and what
 // they are predicted to reach.
 #include "model/input_error.hpp"
-#include "objectives/design_trial.hpp"
-#include "results/archive/run_files.hpp"
-#include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
-#include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/request.hpp"
-#include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 #include "studies/search/verified_ranking.hpp"
 #include "studies/settings/law_file.hpp"
-#include "studies/settings/trials.hpp"
 #include "studies/settings/units.hpp"
 
 #include <array>
 #include <cmath>
-#include <optional>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A metric that a law predicts, and what was simulated where the design was verified.
 struct Prediction {
@@ -109,15 +96,6 @@ std::vector<std::string> differing_conditions(const Configuration& configuration
   return notes;
 }
 
-/// The configured design with the law's planes.
-SensorDesign advised_design(const Configuration& configuration, const ScalingLaw& law,
-                            const Telescope& telescope, const Seeing& seeing) {
-  SensorDesign design = design_of(configuration);
-  design.planes = law.planes(telescope, seeing.fried_parameter);
-  design.validate(telescope);
-  return design;
-}
-
 /// What is predicted, beside what was simulated where the design was verified.
 std::string predictions_table(const std::array<Prediction, 2>& predictions) {
   const bool verified = predictions[0].simulated.has_value();
@@ -134,33 +112,22 @@ std::string predictions_table(const std::array<Prediction, 2>& predictions) {
   return table + '\n';
 }
 
-/// What the planes are for.
-struct Site {
-  const Telescope& telescope;
-  const Seeing& seeing;
-
-  double d_over_r0() const { return telescope.diameter / seeing.fried_parameter; }
-};
-
+/// @param verified      null where it is not
 /// @param is_elsewhere  whether the law's designs had other settings
-void print_advice(const LawFile& file, const Site& site, const SensorDesign& design,
-                  const std::array<Prediction, 2>& predictions,
-                  const std::optional<TriedDesign>& verified, bool is_elsewhere) {
-  const double d_over_r0 = site.d_over_r0();
+void print_advice(const LawFile& file, const Telescope& telescope, const Seeing& seeing,
+                  const SensorDesign& design, const std::array<Prediction, 2>& predictions,
+                  const Performance* verified, bool is_elsewhere) {
+  const double d_over_r0 = telescope.diameter / seeing.fried_parameter;
   const MeanAndError near = file.law.z_near_talbot.predict(d_over_r0);
   const MeanAndError far = file.law.far_fresnel_number.predict(d_over_r0);
   fmt::print("{}\n\nAdvised design, planes in visiting order:\n{}\n",
-             telescope_line(site.telescope, site.seeing),
-             planes_table(design, site.telescope, site.seeing,
-                          verified ? &verified->performances.front() : nullptr));
+             telescope_line(telescope, seeing), planes_table(design, telescope, seeing, verified));
   fmt::print("The law knows the near pair's distance to {:.0f} %, the far pair's to {:.0f} %.\n\n",
              100.0 * near.standard_error / near.mean, 100.0 * far.standard_error / far.mean);
   fmt::print("By the law of {} searches, D/r0 = {:g} to {:g}{}{}:\n{}", file.data.size(),
              file.law.least_d_over_r0, file.law.greatest_d_over_r0,
              is_elsewhere ? ", for its own settings (see the notes)" : "",
-             verified ? fmt::format(", and on {} fresh screens",
-                                    verified->performances.front().screens.size())
-                      : "",
+             verified ? fmt::format(", and on {} fresh screens", verified->screens.size()) : "",
              predictions_table(predictions));
   if (file.law.extrapolates(d_over_r0)) {
     fmt::print(
@@ -168,7 +135,7 @@ void print_advice(const LawFile& file, const Site& site, const SensorDesign& des
         "than stated\n",
         d_over_r0);
   }
-  if (verified) fmt::print("{}", captured_energy_warnings(design, verified->performances.front()));
+  if (verified) fmt::print("{}", captured_energy_warnings(design, *verified));
 }
 
 /// Long, as what is simulated is optional in each of its steps.
@@ -181,7 +148,9 @@ void run_advise(const Request& request) {
                            ? read_law_file(configuration.text("advise.law"))
                            : parse_law_file(built_in_law_text(), "(built in)");
   const double d_over_r0 = telescope.diameter / seeing.fried_parameter;
-  const SensorDesign design = advised_design(configuration, file.law, telescope, seeing);
+  SensorDesign design = design_of(configuration);
+  design.planes = file.law.planes(telescope, seeing.fried_parameter);
+  design.validate(telescope);
   std::vector<std::string> notes = differing_conditions(configuration, file.conditions);
   std::optional<DesignTrial> verification;
   if (request.flags.contains("verify")) {
@@ -231,7 +200,8 @@ void run_advise(const Request& request) {
   record.write_summary(summary);
 
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  print_advice(file, {telescope, seeing}, design, predictions, verified, is_elsewhere);
+  print_advice(file, telescope, seeing, design, predictions,
+               verified ? &verified->performances.front() : nullptr, is_elsewhere);
   fmt::print("\nadvised.cfg holds this design, and a search from it: nlcwfs optimize --config {}\n",
              record.folder().file("advised.cfg").string());
   record.close();

@@ -1,36 +1,19 @@
 // benchmark: How fast this machine is at the configuration.
-#include "objectives/design_metric.hpp"
-#include "results/tables/json_numbers.hpp"
-#include "results/text/design_text.hpp"
 #include "studies/commands/commands.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/interrupt.hpp"
 #include "studies/run/progress.hpp"
-#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/settings/trials.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <sys/resource.h>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 namespace nlcwfs {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What one evaluation of the design took.
 struct EvaluationTime {
@@ -102,81 +85,78 @@ struct Speed {
 };
 
 /// What is timed, and how thoroughly.
-class Benchmark {
- public:
+struct Benchmark : Setup {
   explicit Benchmark(const Configuration& configuration)
-      : setup_(configuration),
-        source_(configuration),
+      : Setup(configuration),
+        source(configuration),
         // Before the screens, which may take long.
-        design_(setup_.simulated()),
-        threads_(thread_count()),
-        screens_(screens_of(source_, setup_.telescope, setup_.seeing(), setup_.samples,
-                            setup_.notes, most_screens())),
-        configured_screens_(source_.file.empty() ? source_.count
-                                                 : static_cast<int>(screens_.size())) {}
+        design(simulated()),
+        screens(screens_of(source, telescope, seeing(), samples, notes, most_screens())),
+        configured_screens(source.file.empty() ? source.count : static_cast<int>(screens.size())) {}
 
   /// Decides how many screens and repetitions there is time for: a few seconds for everything, or
   /// as long as three wavefronts on one thread and two on all threads take.
   void prepare() {
     constexpr double evaluation_limit = 1.0;  // s
     const double seconds =
-        evaluation_on_one_thread(simulation(Precision::double_precision, 1), design_).seconds;
-    const double affordable = threads_ * std::max(1.0, std::floor(evaluation_limit / seconds));
-    used_screens_ = static_cast<int>(std::min(affordable, double(screens_.size())));
-    repetitions_ = seconds < evaluation_limit ? 3 : 1;
+        evaluation_on_one_thread(simulation(Precision::double_precision, 1), design).seconds;
+    const double affordable = threads * std::max(1.0, std::floor(evaluation_limit / seconds));
+    used_screens = static_cast<int>(std::min(affordable, double(screens.size())));
+    repetitions = seconds < evaluation_limit ? 3 : 1;
   }
 
   /// In double and in single precision. An interrupt ends it with the repetitions that are done.
   /// @throws RunInterrupted before there is one
   std::pair<Speed, Speed> speeds() {
-    Progress progress("benchmark", 4.0 * repetitions_, "evaluations");
+    Progress progress("benchmark", 4.0 * repetitions, "evaluations");
     Timings in_double;
     Timings in_single;
     // In turns, so that what else the machine does meets both.
-    for (int repetition = 0; repetition < repetitions_; ++repetition) {
+    for (int repetition = 0; repetition < repetitions; ++repetition) {
       try {
         repeat(Precision::double_precision, in_double, progress);
         repeat(Precision::single_precision, in_single, progress);
       } catch (const RunInterrupted&) {
         if (repetition == 0) throw;
-        repetitions_ = repetition;
-        is_interrupted_ = true;
+        repetitions = repetition;
+        is_interrupted = true;
       }
     }
     return {speed_of(in_double), speed_of(in_single)};
   }
 
-  const Telescope& telescope() const { return setup_.telescope; }
-  const Seeing& seeing() const { return setup_.seeing(); }
-  const SensorDesign& design() const { return design_; }
-  int truth_samples() const { return static_cast<int>(screens_.front().rows()); }
-  int threads() const { return threads_; }
+  /// Of the wavefronts along each side.
+  int width() const { return static_cast<int>(screens.front().rows()); }
   /// Fewer than the threads where there are fewer screens.
-  int threads_at_work() const { return std::min(threads_, used_screens_); }
-  int configured_screens() const { return configured_screens_; }
-  int used_screens() const { return used_screens_; }
-  int repetitions() const { return repetitions_; }
-  bool is_interrupted() const { return is_interrupted_; }
-  const std::vector<std::string>& notes() const { return setup_.notes; }
+  int threads_at_work() const { return std::min(threads, used_screens); }
+
+  int threads = thread_count();
+  ScreenSource source;
+  SensorDesign design;  ///< as it is simulated
+  std::vector<PhaseScreen> screens;
+  int configured_screens;
+  int used_screens = 1;
+  int repetitions = 1;
+  bool is_interrupted = false;
 
  private:
   /// More would hardly change the mean number of loops; as many for each thread.
   int most_screens() const {
     constexpr int enough = 16;
-    return (enough + threads_ - 1) / threads_ * threads_;
+    return (enough + threads - 1) / threads * threads;
   }
 
-  Simulation simulation(Precision precision, int screens) const {
-    SimulationOptions options = setup_.options;
-    options.precision = precision;
-    return {setup_.telescope, {screens_.begin(), screens_.begin() + screens}, options};
+  Simulation simulation(Precision precision, int count) const {
+    SimulationOptions of_this = options;
+    of_this.precision = precision;
+    return {telescope, {screens.begin(), screens.begin() + count}, of_this};
   }
 
   /// In new simulations, which have no images yet.
   void repeat(Precision precision, Timings& timings, Progress& progress) const {
-    timings.alone.push_back(evaluation_on_one_thread(simulation(precision, 1), design_));
+    timings.alone.push_back(evaluation_on_one_thread(simulation(precision, 1), design));
     progress.advance();
-    timings.together.push_back(timed_evaluation(simulation(precision, used_screens_), design_));
+    timings.together.push_back(timed_evaluation(simulation(precision, used_screens), design));
     progress.advance();
   }
 
@@ -190,22 +170,12 @@ class Benchmark {
             .reconstruction_seconds = median_of(together, &EvaluationTime::reconstruction_seconds),
             .loops = together.front().loops,
             .design_seconds =
-                median_of(together, &EvaluationTime::seconds) * configured_screens_ / used_screens_,
+                median_of(together, &EvaluationTime::seconds) * configured_screens / used_screens,
             .fft_rate = median_of(timings.alone, [this](const EvaluationTime& time) {
-              return Operation{.fft_rate = 1.0}.transform_seconds(design_) * time.transforms /
+              return Operation{.fft_rate = 1.0}.transform_seconds(design) * time.transforms /
                      time.reconstruction_seconds;
             })};
   }
-
-  Setup setup_;
-  ScreenSource source_;
-  SensorDesign design_;
-  int threads_;
-  std::vector<PhaseScreen> screens_;
-  int configured_screens_;
-  int used_screens_ = 1;
-  int repetitions_ = 1;
-  bool is_interrupted_ = false;
 };
 
 /// The most memory that this process has had, MiB.
@@ -262,15 +232,15 @@ double search_seconds(const Speed& speed, const Configuration& configuration) {
 }
 
 void print_task(const Benchmark& benchmark, const Configuration& configuration) {
-  for (const std::string& note : benchmark.notes()) fmt::print("note: {}\n", note);
-  fmt::print("{}\n", telescope_line(benchmark.telescope(), benchmark.seeing()));
+  for (const std::string& note : benchmark.notes) fmt::print("note: {}\n", note);
+  fmt::print("{}\n", telescope_line(benchmark.telescope, benchmark.seeing()));
   const auto square = [](int samples) { return fmt::format("{0} x {0}", samples); };
-  const SensorDesign& design = benchmark.design();
+  const SensorDesign& design = benchmark.design;
   fmt::print("{} planes of {} pixels, reconstruction grid {}\n", design.planes.size(),
              square(design.detector.width()), square(design.grid_width()));
-  fmt::print("{} of {} samples, {} truth, {}\n\n",
-             counted(benchmark.configured_screens(), "screen"), square(benchmark.truth_samples()),
-             configuration.choice("simulation.truth"), counted(benchmark.threads(), "thread"));
+  fmt::print("{} of {} samples, {} truth, {}\n\n", counted(benchmark.configured_screens, "screen"),
+             square(benchmark.width()), configuration.choice("simulation.truth"),
+             counted(benchmark.threads, "thread"));
 }
 
 void print_speeds(const Speed& in_double, const Speed& in_single, const Benchmark& benchmark,
@@ -297,7 +267,7 @@ void print_speeds(const Speed& in_double, const Speed& in_single, const Benchmar
   milliseconds("ms to reconstruct from them", &Speed::reconstruction_seconds);
   figure("  in loops", &Speed::loops);
   fmt::print("\n");
-  figure(fmt::format("seconds per design on {}", counted(benchmark.configured_screens(), "screen")),
+  figure(fmt::format("seconds per design on {}", counted(benchmark.configured_screens, "screen")),
          &Speed::design_seconds);
   figure("  designs per minute", [](const Speed& speed) { return 60.0 / speed.design_seconds; });
   row(fmt::format("  search of {}{}", configuration.is_set("search.time_limit") ? "at most " : "",
@@ -309,13 +279,13 @@ void print_speeds(const Speed& in_double, const Speed& in_single, const Benchmar
 }
 
 void print_reading(const Benchmark& benchmark, double memory) {
-  const int repetitions = benchmark.repetitions();
+  const int repetitions = benchmark.repetitions;
   fmt::print("\n{} of this design; peak memory of this run {:.0f} MiB.\n",
              repetitions == 1 ? "From one evaluation"
                               : fmt::format("Medians of {} evaluations", repetitions),
              memory);
-  if (benchmark.used_screens() < benchmark.configured_screens()) {
-    fmt::print("Timed on {} of the screens and scaled to all of them.\n", benchmark.used_screens());
+  if (benchmark.used_screens < benchmark.configured_screens) {
+    fmt::print("Timed on {} of the screens and scaled to all of them.\n", benchmark.used_screens);
   }
   fmt::print(
       "A search takes that long if its designs need as many loops as this one and share no "
@@ -344,23 +314,23 @@ void run_benchmark(const Request& request) {
   print_task(benchmark, configuration);
   print_speeds(in_double, in_single, benchmark, configuration);
   print_reading(benchmark, memory);
-  if (benchmark.is_interrupted()) {
+  if (benchmark.is_interrupted) {
     const std::string what =
-        fmt::format("{} had been timed", counted(benchmark.repetitions(), "repetition"));
+        fmt::format("{} had been timed", counted(benchmark.repetitions, "repetition"));
     if (!record) throw RunInterrupted(fmt::format("when {}", what));
     record->note_interrupted(what);
   }
   if (!record) return;
-  const SensorDesign& design = benchmark.design();
+  const SensorDesign& design = benchmark.design;
   record->write_summary({{"grid_samples", design.grid_width()},
                          {"detector_pixels", design.detector.width()},
-                         {"truth_samples", benchmark.truth_samples()},
+                         {"truth_samples", benchmark.width()},
                          {"plane_count", design.planes.size()},
-                         {"screens", benchmark.configured_screens()},
+                         {"screens", benchmark.configured_screens},
                          {"timing",
-                          {{"threads", benchmark.threads()},
-                           {"repetitions", benchmark.repetitions()},
-                           {"timed_screens", benchmark.used_screens()},
+                          {{"threads", benchmark.threads},
+                           {"repetitions", benchmark.repetitions},
+                           {"timed_screens", benchmark.used_screens},
                            {"double", to_json(in_double, search_seconds(in_double, configuration))},
                            {"single", to_json(in_single, search_seconds(in_single, configuration))},
                            {"peak_memory_mib", memory}}}});
@@ -378,10 +348,10 @@ std::string two_digits(double value) {
 std::string of_benchmark(const Json& summary) {
   const Json& timing = summary.at("timing");
   const int threads = integer_from_json(timing.at("threads"));
-  return fmt::format("{} loops per second in double precision, {} in single, on {} thread{}.",
+  return fmt::format("{} loops per second in double precision, {} in single, on {}.",
                      two_digits(number_from_json(timing.at("double").at("loops_per_second"))),
                      two_digits(number_from_json(timing.at("single").at("loops_per_second"))),
-                     threads, threads == 1 ? "" : "s");
+                     counted(threads, "thread"));
 }
 
 }  // namespace

@@ -3,10 +3,6 @@
 
 #include "studies/run/command.hpp"
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace nlcwfs {
 
 /// Every command, in the order of the help.

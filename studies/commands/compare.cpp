@@ -1,42 +1,20 @@
 // compare: The best designs of a sweep and of a search, on screens that neither has seen, and what
 // finding them took.
 #include "model/input_error.hpp"
-#include "objectives/design_comparison.hpp"
-#include "objectives/design_field.hpp"
-#include "results/archive/archive.hpp"
-#include "results/archive/run_files.hpp"
 #include "results/pictures/grid_picture.hpp"
-#include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "results/tables/json_text.hpp"
 #include "results/tables/text_file.hpp"
 #include "results/tables/trial_summary.hpp"
-#include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/request.hpp"
-#include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/verified_ranking.hpp"
 #include "studies/settings/text.hpp"
-#include "studies/settings/trials.hpp"
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <optional>
-#include <set>
-#include <stdexcept>
-#include <utility>
-
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What a finished run left in its folder.
 struct FinishedRun {
@@ -44,27 +22,25 @@ struct FinishedRun {
   Configuration configuration = {};
   Json summary = {};
   SensorDesign best = {};
-  int designs = 0;
-  std::int64_t reconstructions = 0;  ///< without those of the verification
-  double seconds = 0.0;
+  Json effort = {};  ///< that finding it took: designs, reconstructions and seconds
 };
 
 /// @param argument  name of the command line's argument: "SWEEP"
 /// @param command   that must have made the folder
 FinishedRun finished_run(const std::string& argument, const std::string& command,
                          const std::filesystem::path& folder) {
-  const std::string shown = one_line(folder.string());
+  const auto refuse = [&](const std::string& why, const std::string& remedy) {
+    throw InputError(argument, one_line(folder.string()), why, remedy);
+  };
+  const std::string finished = " of a finished " + command;
   if (!std::filesystem::is_directory(folder)) {
-    throw InputError(argument, shown, "there is no such folder",
-                     fmt::format("name that of a finished {}", command));
+    refuse("there is no such folder", "name that" + finished);
   }
   if (!std::filesystem::is_regular_file(folder / "config.cfg")) {
-    throw InputError(argument, shown, "has no config.cfg",
-                     fmt::format("name the folder of a finished {}", command));
+    refuse("has no config.cfg", "name the folder" + finished);
   }
   if (!std::filesystem::is_regular_file(folder / "summary.json")) {
-    throw InputError(argument, shown, "has no summary.json: the run is not finished",
-                     fmt::format("give that of a finished {}", command));
+    refuse("has no summary.json: the run is not finished", "give that" + finished);
   }
   FinishedRun run{.folder = folder};
   run.configuration.read_file(folder / "config.cfg");
@@ -73,16 +49,17 @@ FinishedRun finished_run(const std::string& argument, const std::string& command
     if (!run.summary.is_object()) throw std::runtime_error("it is no JSON object");
     const std::string made_by = run.summary.at("command");
     if (made_by != command) {
-      throw InputError(argument, shown, fmt::format("is a run of {}", made_by),
-                       "give first the folder of a sweep, then that of an optimize");
+      refuse("is a run of " + made_by,
+             "give first the folder of a sweep, then that of an optimize");
     }
     run.best = design_from_json(run.summary.at("best"));
-    run.designs = integer_from_json(run.summary.at("evaluations"));
+    int designs = integer_from_json(run.summary.at("evaluations"));
     if (run.summary.contains("cheap_evaluations")) {
-      run.designs += integer_from_json(run.summary.at("cheap_evaluations"));
+      designs += integer_from_json(run.summary.at("cheap_evaluations"));
     }
-    run.reconstructions = run.summary.at("search_reconstructions");
-    run.seconds = run.summary.at("search_seconds");
+    run.effort = {{"designs", designs},
+                  {"reconstructions", run.summary.at("search_reconstructions").get<std::int64_t>()},
+                  {"seconds", run.summary.at("search_seconds").get<double>()}};
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
@@ -174,7 +151,6 @@ void require_comparable(const FinishedRun& sweep, const FinishedRun& optimize) {
 /// run has seen.
 Configuration comparison_configuration(const Configuration& given, const FinishedRun& sweep,
                                        const FinishedRun& optimize) {
-  constexpr std::array verification{"verify.screens", "verify.seed", "verify.truth_factor"};
   Configuration configuration = sweep.configuration;
   const auto is_given = [&](std::string_view key) {
     return given.source(key) != Configuration().source(key);
@@ -189,7 +165,7 @@ Configuration comparison_configuration(const Configuration& given, const Finishe
                                  value_or_not_set(configuration, key.name)),
                      "leave it away");
   }
-  for (const char* key : verification) {
+  for (const std::string& key : keys::fresh_screens) {
     if (is_given(key)) configuration.set(key, given.value_text(key), given.source(key));
   }
 
@@ -262,22 +238,13 @@ std::string verdict_text(const Improvement& gain, double sweep_cost) {
       -100.0 * gain.cost.mean / sweep_cost);
 }
 
-Json effort_object(const FinishedRun& run) {
-  return {
-      {"designs", run.designs}, {"reconstructions", run.reconstructions}, {"seconds", run.seconds}};
-}
-
 /// How much more the sweep took than the search.
-struct EffortRatios {
-  double designs;
-  double reconstructions;
-  double seconds;
-};
-
-EffortRatios effort_ratios(const FinishedRun& sweep, const FinishedRun& optimize) {
-  return {double(sweep.designs) / optimize.designs,
-          double(sweep.reconstructions) / double(optimize.reconstructions),
-          sweep.seconds / optimize.seconds};
+Json effort_ratios(const FinishedRun& sweep, const FinishedRun& optimize) {
+  Json ratios;
+  for (const auto& [what, effort] : sweep.effort.items()) {
+    ratios[what] = effort.get<double>() / optimize.effort.at(what).get<double>();
+  }
+  return ratios;
 }
 
 /// A run with its best design on the screens of the comparison.
@@ -302,16 +269,19 @@ void print_designs(const Side& sweep, const Side& optimize, const DesignTrial& t
                          {"optimize", &found_performance, optimize.tried.costs}}));
 }
 
-void print_efforts(const FinishedRun& sweep, const FinishedRun& optimize) {
-  const EffortRatios ratios = effort_ratios(sweep, optimize);
+void print_efforts(const FinishedRun& sweep, const FinishedRun& optimize, const Json& ratios) {
   fmt::print("  {:<22} {:>14} {:>14} {:>10}\n", "what finding it took", "sweep", "optimize",
              "ratio");
-  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "designs", sweep.designs, optimize.designs,
-             ratios.designs);
-  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", "reconstructions", sweep.reconstructions,
-             optimize.reconstructions, ratios.reconstructions);
-  fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n\n", "time", duration_text(sweep.seconds),
-             duration_text(optimize.seconds), ratios.seconds);
+  for (const auto& [what, ratio] : ratios.items()) {
+    const bool is_time = what == "seconds";
+    const auto shown = [&, &key = what](const FinishedRun& run) {
+      const Json& effort = run.effort.at(key);
+      return is_time ? duration_text(effort.get<double>()) : effort.dump();
+    };
+    fmt::print("  {:<22} {:>14} {:>14} {:>10.3g}\n", is_time ? "time" : what, shown(sweep),
+               shown(optimize), ratio.get<double>());
+  }
+  fmt::print("\n");
 }
 
 void run_compare(const Request& request) {
@@ -343,7 +313,7 @@ void run_compare(const Request& request) {
   found = trial.on_first_screens(std::move(found), screens);
   record.note_missing_screens(found, trial);
   const Improvement gain = improvement(found, swept);
-  const EffortRatios ratios = effort_ratios(sweep, optimize);
+  const Json ratios = effort_ratios(sweep, optimize);
   try {
     if (const auto reason =
             write_path_picture(sweep, optimize, telescope, seeing, record.folder())) {
@@ -358,17 +328,12 @@ void run_compare(const Request& request) {
        {"difference", to_json(MeanAndError{-gain.cost.mean, gain.cost.standard_error})},
        {"verdict", word_of(gain.verdict)},
        {"cost",
-        {{"sweep", effort_object(sweep)},
-         {"optimize", effort_object(optimize)},
-         {"sweep_per_optimize",
-          {{"designs", ratios.designs},
-           {"reconstructions", ratios.reconstructions},
-           {"seconds", ratios.seconds}}}}}});
+        {{"sweep", sweep.effort}, {"optimize", optimize.effort}, {"sweep_per_optimize", ratios}}}});
 
   fmt::print("{}\n\n", telescope_line(telescope, seeing));
   print_designs({sweep, swept}, {optimize, found}, trial, telescope, seeing, fresh.seed);
   fmt::print("\n{}\n\n", verdict_text(gain, mean_and_standard_error(swept.costs).mean));
-  print_efforts(sweep, optimize);
+  print_efforts(sweep, optimize, ratios);
   record.close();
 }
 

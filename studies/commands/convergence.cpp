@@ -1,30 +1,18 @@
 // convergence: How one design's wavefront error falls from loop to loop.
 #include "model/input_error.hpp"
-#include "results/archive/run_files.hpp"
 #include "results/pictures/curve_picture.hpp"
 #include "results/tables/csv_table.hpp"
-#include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
-#include "results/text/design_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
 #include "studies/run/progress.hpp"
-#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/settings/trials.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
-
-#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double nm = 1e-9;
 
@@ -57,21 +45,14 @@ std::string table_of(const std::vector<LoopResiduals>& loops) {
   }
   CsvTable table(columns);
   for (std::size_t loop = 0; loop < loops.size(); ++loop) {
-    table.row()
-        .add(double(loop + 1))
-        .add(loops[loop].mean.mean)
-        .add(loops[loop].mean.standard_error)
-        .add(loops[loop].standard_deviation);
+    table.row().add(double(loop + 1)).add(loops[loop].mean).add(loops[loop].standard_deviation);
     for (const double value : loops[loop].screens) table.add(value);
   }
   return table.text();
 }
 
 Json residuals_object(const std::vector<LoopResiduals>& loops) {
-  Json object{{"mean", Json::array()},
-              {"standard_error", Json::array()},
-              {"standard_deviation", Json::array()},
-              {"screens", Json::array()}};
+  Json object;
   for (const LoopResiduals& loop : loops) {
     object["mean"].push_back(loop.mean.mean);
     object["standard_error"].push_back(loop.mean.standard_error);

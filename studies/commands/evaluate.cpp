@@ -1,22 +1,11 @@
 // evaluate: One design's performance on the configured screens.
-#include "model/words.hpp"
-#include "results/archive/run_files.hpp"
-#include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
-#include "results/text/design_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/evaluation_log.hpp"
 #include "studies/run/progress.hpp"
-#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 #include "studies/settings/trials.hpp"
-
-#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -30,7 +19,6 @@ void run_evaluate(const Request& request) {
   const SensorDesign design = trial.checked(setup.design);
   const Telescope& telescope = setup.telescope;
   const Seeing& seeing = setup.seeing();
-  std::vector<std::string>& notes = setup.notes;
   trial.keeps_failures = false;
   RunRecord record(request);
   record.adopt(trial);
@@ -44,23 +32,22 @@ void run_evaluate(const Request& request) {
   const Performance& performance = tried.performances.front();
   record.note_missing_screens(tried, trial);
 
-  archive_and_log(record.archive(),
-                  {.stage = "evaluate",
-                   .design = to_json(design, telescope, seeing.fried_parameter).dump(),
-                   .cost = mean_and_standard_error(tried.costs).mean,
-                   .failure = "",
-                   .seconds = seconds,
-                   .performance = to_json(performance).dump()});
+  record.add({.stage = "evaluate",
+              .design = to_json(design, telescope, seeing.fried_parameter).dump(),
+              .cost = mean_and_standard_error(tried.costs).mean,
+              .failure = "",
+              .seconds = seconds,
+              .performance = to_json(performance).dump()});
   record.folder().write("screens.csv", screens_table(performance));
-  nlohmann::ordered_json summary{{"design", to_json(tried, trial)}};
+  Json summary{{"design", to_json(tried, trial)}};
   if (!request.silent) {
     const CloserLook look = look_closer(trial, tried, record.folder());
     summary["closer_look"] = look.summary;
-    notes.insert(notes.end(), look.notes.begin(), look.notes.end());
+    setup.notes.insert(setup.notes.end(), look.notes.begin(), look.notes.end());
   }
   record.write_summary(summary);
 
-  for (const std::string& note : notes) record.print("note: {}\n", note);
+  for (const std::string& note : setup.notes) record.print("note: {}\n", note);
   record.print("{}\n\n", telescope_line(telescope, seeing));
   record.print("{}\n", planes_table(design, telescope, seeing, &performance));
   record.print("On {} screen{}, {} truth:\n{}", performance.screens.size(),
@@ -74,8 +61,8 @@ void run_evaluate(const Request& request) {
   record.close();
 }
 
-std::string of_evaluate(const nlohmann::ordered_json& summary) {
-  const nlohmann::ordered_json& design = summary.at("design");
+std::string of_evaluate(const Json& summary) {
+  const Json& design = summary.at("design");
   return fmt::format("{} planes: {}; {:.3g} % of the reconstructions converged.",
                      design.at("planes_m").size(), reached_text(design, "screens"),
                      100.0 * number_from_json(design.at("performance").at("converged_fraction")));

@@ -1,53 +1,47 @@
 // export: A run's archive as flat tables.
 #include "model/input_error.hpp"
-#include "results/archive/archive.hpp"
-#include "results/archive/run_files.hpp"
 #include "results/fits/fits_table.hpp"
 #include "results/tables/evaluation_table.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "studies/run/command.hpp"
-#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/settings/text.hpp"
 
 #include <map>
-#include <set>
 
 #include <boost/algorithm/string/split.hpp>
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// The evaluations of a run's folder or of an archive, see evaluation_list().
 /// @throws InputError where it is neither
 Json evaluations_of(const std::filesystem::path& run) {
-  const std::string shown = one_line(run.string());
+  const auto refuse = [&](const std::string& why) {
+    throw InputError("RUN", one_line(run.string()), why);
+  };
   const bool is_folder = std::filesystem::is_directory(run);
   const std::filesystem::path path = is_folder ? run / "archive.sqlite" : run;
   if (!std::filesystem::is_regular_file(path)) {
-    throw InputError("RUN", shown,
-                     fmt::format("{}; name the folder of a run, such as results/optimize-1, or its "
-                                 "archive.sqlite",
-                                 is_folder ? "has no archive.sqlite" : "there is no such file"));
+    refuse(
+        fmt::format("{}; name the folder of a run, such as results/optimize-1, or its "
+                    "archive.sqlite",
+                    is_folder ? "has no archive.sqlite" : "there is no such file"));
   }
   std::vector<ArchivedEvaluation> evaluations;
   try {
     evaluations = Archive::reopened(path).evaluations();
   } catch (const std::runtime_error&) {
-    throw InputError("RUN", shown,
-                     "is no archive of a run of this version; name the folder of a run, such as "
-                     "results/optimize-1");
+    refuse(
+        "is no archive of a run of this version; name the folder of a run, such as "
+        "results/optimize-1");
   }
   try {
     return evaluation_list(evaluations);
   } catch (const std::runtime_error& error) {
-    throw InputError("RUN", shown,
-                     fmt::format("is no archive of evaluations: {}", one_line(error.what())));
+    refuse(fmt::format("is no archive of evaluations: {}", one_line(error.what())));
+    throw;
   }
 }
 

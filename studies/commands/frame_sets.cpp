@@ -1,15 +1,12 @@
 // Sets of measured frames are reconstructed.
 #include "studies/commands/frame_sets.hpp"
 
-#include "model/wavefront_metrics.hpp"
 #include "studies/run/interrupt.hpp"
 #include "studies/run/progress.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
@@ -93,17 +90,17 @@ std::vector<PlaneMeans> plane_means(const FrameRun& run) {
   std::vector<PlaneMeans> planes;
   for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
     const auto mean_of = [&](const auto& metric) {
-      return mean_over_sets(run,
-                            [&](const SetResult& set) { return metric(set.frames.planes[plane]); });
+      return mean_over_sets(
+          run, [&](const SetResult& set) { return std::invoke(metric, set.frames.planes[plane]); });
     };
     PlaneMeans means{
-        .relative_rms = mean_of([](const PlaneConsistency& of) { return of.relative_rms; }),
+        .relative_rms = mean_of(&PlaneConsistency::relative_rms),
         .noise = {},
         .misfit = mean_over_sets(run, [&](const SetResult& set) { return set.misfit[plane]; }),
-        .correlation = mean_of([](const PlaneConsistency& of) { return of.correlation; }),
+        .correlation = mean_of(&PlaneConsistency::correlation),
         .light_share = mean_over_sets(
             run, [&](const SetResult& set) { return light_share(set.frames, plane); }),
-        .captured_energy = mean_of([](const PlaneConsistency& of) { return of.captured_energy; }),
+        .captured_energy = mean_of(&PlaneConsistency::captured_energy),
         .x = mean_of([](const PlaneConsistency& of) { return of.displacement.x(); }),
         .y = mean_of([](const PlaneConsistency& of) { return of.displacement.y(); })};
     if (!run.sets.front().noise.empty()) {

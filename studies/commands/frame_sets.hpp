@@ -2,13 +2,7 @@
 #pragma once
 
 #include "model/frame_reconstruction.hpp"
-#include "model/gerchberg_saxton.hpp"
-#include "model/statistics.hpp"
 #include "studies/settings/measured_frames.hpp"
-
-#include <cstddef>
-#include <optional>
-#include <vector>
 
 namespace nlcwfs {
 

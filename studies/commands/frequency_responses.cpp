@@ -92,7 +92,7 @@ AmplitudeNoise noise_of(const ResponseTask& task, const Simulation& simulation,
     differences[i] = (differences[i] - without[i]) * task.amplitude_nm();
   }
   return {standard_deviation_and_error(differences), static_cast<int>(differences.size()),
-          task.nm_per_radian() *
+          1e9 * task.telescope.wavelength / (2.0 * std::numbers::pi) *
               photon_limited_amplitude_error(design.detector.photons_per_frame(), contrast)};
 }
 

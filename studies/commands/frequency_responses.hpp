@@ -1,14 +1,10 @@
 // The responses of a design and of pairs of planes are measured.
 #pragma once
 
-#include "model/simulation.hpp"
-#include "model/statistics.hpp"
 #include "studies/run/progress.hpp"
 #include "studies/settings/trials.hpp"
 
 #include <numbers>
-#include <optional>
-#include <vector>
 
 namespace nlcwfs {
 
@@ -20,8 +16,6 @@ struct ResponseTask : Setup {
   /// Sinusoids of a frequency as the simulation's wavefronts.
   Simulation simulation_of(double frequency) const;
 
-  /// Of optical path.
-  double nm_per_radian() const { return 1e9 * telescope.wavelength / (2.0 * std::numbers::pi); }
   /// Peak.
   double amplitude_nm() const { return 1e9 * amplitude; }
 

@@ -1,15 +1,16 @@
 // Groups of configuration keys that several commands read.
 #pragma once
 
+#include "studies/run/command.hpp"
+
+#include <algorithm>
 #include <initializer_list>
-#include <string>
-#include <vector>
 
 /// Groups of configuration keys that several commands read.
 namespace nlcwfs::keys {
 
 /// Keys or sections.
-using Keys = std::vector<std::string>;
+using Keys = decltype(Command::keys);
 
 /// What every command that knows a telescope reads.
 inline const Keys site{"telescope", "seeing"};
@@ -18,32 +19,19 @@ inline const Keys simulation{"source",   "screens",        "sensor",
                              "detector", "reconstruction", "simulation"};
 /// What judges a design.
 inline const Keys judgement{"objective"};
-/// What a search may vary, and how it does that.
-inline const Keys space{"search.detector_window",
-                        "search.exposure",
-                        "search.initial_guess",
-                        "search.layout",
-                        "search.order",
-                        "search.plane_count",
-                        "search.precision",
-                        "search.pupil_pixels",
-                        "search.reconstruction_oversampling",
-                        "search.reconstruction_window",
-                        "search.relaxation",
-                        "search.relaxation_end",
-                        "search.relaxation_start",
-                        "search.seed",
-                        "search.time_limit",
-                        "search.tolerance",
-                        "search.z1",
-                        "search.z2",
-                        "search.z3",
-                        "search.z4",
-                        "search.z5",
-                        "search.z6",
-                        "search.z_far",
-                        "search.z_near",
-                        "search.z_third"};
+/// What a search may vary, and how it does that: the section search without what only the search of
+/// one best design has.
+inline Keys space() {
+  const Keys others{"search.optimizer",     "search.budget",      "search.race",
+                    "search.stagnation",    "search.target",      "search.cheap_budget",
+                    "search.cheap_screens", "search.cheap_window"};
+  Keys all;
+  for (const ConfigurationKey& key : configuration_keys()) {
+    const bool is_other = std::ranges::count(others, key.name) > 0;
+    if (key.name.starts_with("search.") && !is_other) all.push_back(key.name);
+  }
+  return all;
+}
 /// What finds one best design in it.
 inline const Keys search{"search", "baseline", "verify"};
 /// How a design is simulated on screens that no search has seen.

@@ -1,34 +1,20 @@
 // law: The scaling law of the best designs at several seeings.
 #include "model/input_error.hpp"
-#include "results/archive/run_files.hpp"
 #include "results/tables/csv_table.hpp"
-#include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
-#include "results/text/design_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/progress.hpp"
-#include "studies/run/request.hpp"
-#include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/design_search.hpp"
 #include "studies/settings/law_file.hpp"
-#include "studies/settings/setup.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 #include <variant>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// That a law is fitted to.
 constexpr std::size_t least_seeings = 4;
@@ -152,7 +138,7 @@ std::string data_csv(const std::vector<ScalingDatum>& data) {
   for (const ScalingDatum& datum : data) {
     table.row().add(datum.d_over_r0);
     for (const ScalingQuantity& quantity : scaling_quantities()) {
-      table.add((datum.*quantity.datum).mean).add((datum.*quantity.datum).standard_error);
+      table.add(datum.*quantity.datum);
     }
   }
   return table.text();

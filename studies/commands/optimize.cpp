@@ -1,29 +1,14 @@
 // optimize: The best design of the configured search, verified on fresh screens beside the
 // baseline.
-#include "model/words.hpp"
-#include "results/archive/run_files.hpp"
-#include "results/pictures/search_pictures.hpp"
-#include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
-#include "results/text/design_text.hpp"
-#include "results/text/quantity_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/request.hpp"
-#include "studies/run/run_record.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 #include "studies/search/design_search.hpp"
-#include "studies/settings/setup.hpp"
-
-#include <fmt/format.h>
+#include "studies/search/search_log.hpp"
 
 namespace nlcwfs {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json ranges_object(const DesignSearchResult& result) {
   Json ranges = Json::object();
@@ -45,33 +30,11 @@ Json stages_array(const SearchResult& result) {
   return stages;
 }
 
-/// How the search ended, for people.
-std::string_view search_ending(Termination termination) {
-  switch (termination) {
-    case Termination::converged:
-      return "until nothing got better";
-    case Termination::target_reached:
-      return "until search.target was reached";
-    case Termination::stagnated:
-      return "until search.stagnation designs in a row were no better";
-    case Termination::budget_exhausted:
-      return "all that search.budget allows";
-    case Termination::time_limit:
-      return "until search.time_limit";
-    case Termination::stop_requested:
-      break;
-  }
-  return "until it was interrupted";
-}
-
-std::string search_text(const DesignSearch& task, const DesignSearchResult& result,
-                        std::string_view precision) {
-  const std::size_t conditions = task.trial.conditions().size();
-  std::string text = fmt::format(
-      "Tried {} designs on {} screens{} in {} precision in {}, {}", result.search.evaluations,
-      task.trial.screen_count(),
-      conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "", precision,
-      duration_text(result.search_seconds), search_ending(result.search.termination));
+std::string search_text(const DesignSearch& task, const DesignSearchResult& result) {
+  std::string text =
+      tried_text(fmt::format("{} designs", result.search.evaluations), task.trial,
+                 task.search_precision, result.search_seconds, result.search.termination,
+                 "search.budget", "until nothing got better");
   if (result.cheap_evaluations > 0) {
     text += fmt::format("; before that {} in the cheap search", result.cheap_evaluations);
   }
@@ -116,13 +79,12 @@ std::string ranges_text(const DesignSearch& task, const DesignSearchResult& resu
 }
 
 void print_result(const DesignSearch& task, const DesignSearchResult& result,
-                  std::string_view precision, const std::vector<std::string>& notes) {
+                  const std::vector<std::string>& notes) {
   const TriedDesign& best = result.best();
   const Performance best_performance = pooled(best.performances);
   const Performance baseline_performance = pooled(result.baseline.performances);
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing()),
-             search_text(task, result, precision));
+  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing()), search_text(task, result));
   fmt::print("Best design, planes in visiting order:\n{}{}\n",
              planes_table(best.design, task.telescope, task.seeing(), &best_performance),
              choices_text(task.space, best.design));
@@ -143,17 +105,14 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
 }
 
 void run_optimize(const Request& request) {
-  const Configuration& configuration = request.configuration;
   const Stopwatch stopwatch;
-  DesignSearch task(configuration);
+  DesignSearch task(request.configuration);
   RunRecord record(request);
   for (DesignTrial* trial : task.trials()) record.adopt(*trial);
   const DesignSearchResult result = task.run(record);
   if (!result.interrupted_when.empty()) record.note_interrupted(result.interrupted_when);
 
-  Configuration best_configuration = configuration;
-  set_design(best_configuration, result.best().design, task.space, "by the search");
-  record.folder().write("best.cfg", best_configuration.dump());
+  record.write_design("best.cfg", result.best().design, task.space, "by the search");
   record.folder().write("search.csv", result.table);
   record.folder().write("sensitivity.csv", sensitivity_table(result.ranges));
   const CloserLook look = look_closer(task.verification, result.best(), record.folder());
@@ -185,7 +144,7 @@ void run_optimize(const Request& request) {
        {"search_seconds", result.search_seconds},
        {"termination", to_string(result.search.termination)},
        {"stages", stages_array(result.search)}});
-  print_result(task, result, word_of(task.search_precision), notes);
+  print_result(task, result, notes);
   record.close();
 }
 

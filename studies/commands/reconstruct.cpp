@@ -1,28 +1,19 @@
 // reconstruct: The wavefronts of measured detector frames, and how well what they predict agrees
 // with the frames.
-#include "model/statistics.hpp"
+#include "results/fits/fits_cube.hpp"
+#include "results/pictures/image_picture.hpp"
+#include "results/pictures/picture_set.hpp"
+#include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
-#include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
 #include "studies/commands/frame_sets.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/commands/reconstruct_files.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
-#include "studies/settings/measured_frames.hpp"
 #include "studies/settings/setup.hpp"
-
-#include <algorithm>
-
-#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Bounds of the misfit. Frames of the program's own simulation leave 0.01 to 0.06 where all is
 /// right (the reconstruction's own grid and pixels), 0.1 to 0.2 with all distances 5 % off, one of
@@ -35,6 +26,9 @@ std::string_view verdict_of(double worst_misfit) {
   if (worst_misfit <= good_misfit) return "agree";
   return worst_misfit <= poor_misfit ? "agree in part" : "disagree";
 }
+
+double rms_nm_of(const SetResult& set) { return 1e9 * set.wavefront_rms; }
+double loops_of(const SetResult& set) { return double(set.frames.reconstruction.loops); }
 
 std::size_t worst_plane(const std::vector<PlaneMeans>& planes) {
   const auto worst = std::ranges::max_element(
@@ -66,20 +60,18 @@ Json summary_of(const FrameRun& run, double fried_parameter,
          {"displacement_y_pixels", to_json(plane.y)}});
   }
   const std::size_t worst = worst_plane(planes);
-  const auto loops = [](const SetResult& set) { return double(set.frames.reconstruction.loops); };
   const auto converged = [](const SetResult& set) {
     return set.frames.reconstruction.converged ? 1.0 : 0.0;
   };
-  const auto rms = [](const SetResult& set) { return 1e9 * set.wavefront_rms; };
   return {{"design", to_json(run.design, run.telescope, fried_parameter)},
           {"frames",
            {{"sets", run.sets.size()},
             {"planes", run.design.planes.size()},
             {"width_pixels", run.measured.width()},
             {"unit", run.measured.unit}}},
-          {"loops", to_json(mean_over_sets(run, loops))},
+          {"loops", to_json(mean_over_sets(run, loops_of))},
           {"converged_fraction", mean_over_sets(run, converged).mean},
-          {"wavefront_rms_nm", to_json(mean_over_sets(run, rms))},
+          {"wavefront_rms_nm", to_json(mean_over_sets(run, rms_nm_of))},
           {"consistency",
            {{"verdict", verdict_of(planes[worst].misfit.mean)},
             {"worst_plane", worst + 1},
@@ -106,29 +98,26 @@ std::string planes_text(const FrameRun& run, const std::vector<PlaneMeans>& plan
 
 /// What may be wrong, one line for each.
 std::string hints(const FrameRun& run, const std::vector<PlaneMeans>& planes) {
-  std::string text;
   const std::size_t worst = worst_plane(planes);
   const double misfit = planes[worst].misfit.mean;
   const bool has_noise = planes[worst].noise.has_value();
   if (misfit <= good_misfit) {
-    text += fmt::format(
-        "Measured and predicted images agree; plane {} differs most, by {:.1f} %{}.\n", worst + 1,
-        100.0 * planes[worst].relative_rms.mean, has_noise ? ", as its noise lets expect" : "");
-    text +=
+    return fmt::format(
+        "Measured and predicted images agree; plane {} differs most, by {:.1f} %{}.\n"
         "(They would if every sign of sensor.planes were wrong: then the phase has the wrong "
-        "sign.)\n";
-    return text;
+        "sign.)\n",
+        worst + 1, 100.0 * planes[worst].relative_rms.mean,
+        has_noise ? ", as its noise lets expect" : "");
   }
-  text += fmt::format(
+  std::string text = fmt::format(
       "Measured and predicted images {}: plane {} differs by {:.0f} %{}.\n", verdict_of(misfit),
       worst + 1, 100.0 * planes[worst].relative_rms.mean,
       has_noise ? fmt::format(", noise alone by {:.0f} %", 100.0 * planes[worst].noise->mean) : "");
   const bool is_scale = planes[worst].correlation.mean > 0.99 && !run.measured.throughputs.empty();
   if (is_scale) {
-    text +=
-        "  Its pattern is right, its brightness is not: leave frames.flux away, then each "
-        "plane's light is found.\n";
-    return text;
+    return text +
+           "  Its pattern is right, its brightness is not: leave frames.flux away, then each "
+           "plane's light is found.\n";
   }
   if (misfit > poor_misfit) {
     text +=
@@ -148,25 +137,143 @@ std::string hints(const FrameRun& run, const std::vector<PlaneMeans>& planes) {
 
 std::string sets_text(const FrameRun& run) {
   std::string text;
-  std::size_t unconverged = 0;
-  for (const SetResult& set : run.sets) unconverged += set.frames.reconstruction.converged ? 0 : 1;
+  const auto unconverged = std::ranges::count_if(
+      run.sets, [](const SetResult& set) { return !set.frames.reconstruction.converged; });
   if (run.sets.size() == 1) {
     const SetResult& set = run.sets.front();
     text = fmt::format("wavefront RMS {:.4g} nm after {} loops\n", 1e9 * set.wavefront_rms,
                        set.frames.reconstruction.loops);
   } else {
     text = fmt::format("{} sets: wavefront RMS {} nm after {} loops\n", run.sets.size(),
-                       with_error(mean_over_sets(
-                           run, [](const SetResult& set) { return 1e9 * set.wavefront_rms; })),
-                       with_error(mean_over_sets(run, [](const SetResult& set) {
-                         return double(set.frames.reconstruction.loops);
-                       })));
+                       with_error(mean_over_sets(run, rms_nm_of)),
+                       with_error(mean_over_sets(run, loops_of)));
   }
   if (unconverged > 0) {
     text += fmt::format("{} of {} had not converged in reconstruction.max_loops = {} loops\n",
                         unconverged, run.sets.size(), run.design.reconstruction.max_loops);
   }
   return text;
+}
+
+std::vector<FitsKeyword> keywords_of(const FrameRun& run, const std::vector<FitsAxis>& axes) {
+  std::vector<FitsKeyword> keywords = axis_keywords(axes);
+  keywords.push_back({"DIAMETER", run.telescope.diameter, "[m] pupil diameter"});
+  keywords.push_back({"WAVELEN", run.telescope.wavelength, "[m] wavelength of the light"});
+  return keywords;
+}
+
+void write_phases(const FrameRun& run, const OutputFolder& folder) {
+  FitsCube cube{.unit = "rad", .slices = {}};
+  for (const SetResult& set : run.sets) cube.slices.push_back(set.phase);
+  const Eigen::Index samples = cube.slices.front().rows();
+  const double pitch = run.telescope.diameter / double(samples);
+  write_fits_cube(
+      folder.file("phase.fits"), cube,
+      keywords_of(run, {centred_axis("X", samples, pitch),
+                        centred_axis("Y", samples, pitch),
+                        {.name = "SET", .reference_value = 1.0, .description = "of frames"}}));
+}
+
+/// @param images  of a set: one per plane
+void write_images(const std::string& name, const FrameRun& run, const OutputFolder& folder,
+                  std::vector<Image<double>> FrameReconstruction::*images) {
+  FitsCube cube{.unit = "1", .slices = {}, .sets = run.sets.size()};
+  for (const SetResult& set : run.sets) {
+    const std::vector<Image<double>>& planes = set.frames.*images;
+    cube.slices.insert(cube.slices.end(), planes.begin(), planes.end());
+  }
+  const double pitch = run.telescope.diameter / run.design.detector.pupil_pixels;
+  const std::string axis_comment = "[m] the optical axis in this plane's frame";
+  std::vector<FitsAxis> axes{
+      centred_axis("X", run.measured.width(), pitch),
+      centred_axis("Y", run.measured.width(), pitch),
+      {.name = "PLANE", .reference_value = 1.0, .description = "in visiting order"}};
+  if (cube.sets > 1) {
+    axes.push_back({.name = "SET", .reference_value = 1.0, .description = "of frames"});
+  }
+  std::vector<FitsKeyword> keywords = keywords_of(run, axes);
+  for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
+    keywords.push_back({fmt::format("PLANE{}", plane + 1), run.design.planes[plane],
+                        "[m] distance from the pupil"});
+    const auto& axis = run.measured.axes[plane];
+    keywords.push_back({fmt::format("AXISX{}", plane + 1), axis.x() * pitch, axis_comment});
+    keywords.push_back({fmt::format("AXISY{}", plane + 1), axis.y() * pitch, axis_comment});
+  }
+  keywords.push_back({"INTUNIT", std::string("unaberrated pupil"), "what has the intensity 1"});
+  write_fits_cube(folder.file(name), cube, keywords);
+}
+
+std::string consistency_table(const FrameRun& run) {
+  CsvTable table({"set", "plane", "distance_m", "relative_rms", "noise_relative_rms", "misfit",
+                  "correlation", "flux", "captured_energy", "displacement_x_pixels",
+                  "displacement_y_pixels", "centre_x_pixels", "centre_y_pixels", "bad_pixels"});
+  for (std::size_t set = 0; set < run.sets.size(); ++set) {
+    const SetResult& result = run.sets[set];
+    for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
+      const PlaneConsistency& consistency = result.frames.planes[plane];
+      const double middle = 0.5 * double(run.measured.width() + 1);
+      table.row()
+          .add(double(set + 1))
+          .add(double(plane + 1))
+          .add(run.design.planes[plane])
+          .add(consistency.relative_rms)
+          .add(result.noise.empty() ? std::nullopt : std::optional(result.noise[plane]))
+          .add(result.misfit[plane])
+          .add(consistency.correlation)
+          .add(consistency.light)
+          .add(consistency.captured_energy)
+          .add(consistency.displacement.x())
+          .add(consistency.displacement.y())
+          .add(run.measured.axes[plane].x() + middle)
+          .add(run.measured.axes[plane].y() + middle)
+          .add(double(run.measured.width() * run.measured.width() - consistency.measured_pixels));
+    }
+  }
+  return table.text();
+}
+
+/// "Set 1 of 3: 0.5 m telescope at 532 nm"; the first set stands for all.
+std::string title_of(const FrameRun& run) {
+  const std::string telescope = fmt::format("{:g} m telescope at {}", run.telescope.diameter,
+                                            format_length(run.telescope.wavelength));
+  return run.sets.size() == 1 ? telescope
+                              : fmt::format("Set 1 of {}: {}", run.sets.size(), telescope);
+}
+
+ImagePicture phase_picture(const FrameRun& run) {
+  const SetResult& set = run.sets.front();
+  return {.title = title_of(run),
+          .axis_unit = "m",
+          .panels = {
+              {.title = fmt::format("reconstructed phase, RMS {:.4g} nm", 1e9 * set.wavefront_rms),
+               .value_label = "phase, rad",
+               .values = set.phase,
+               .pitch = run.telescope.diameter / double(set.phase.rows()),
+               .is_signed = true}}};
+}
+
+/// Measured, predicted and their difference, a row for each plane.
+ImagePicture images_picture(const FrameRun& run) {
+  const FrameReconstruction& frames = run.sets.front().frames;
+  ImagePicture picture{.title = title_of(run), .axis_unit = "m", .panels = {}};
+  const double pitch = run.telescope.diameter / run.design.detector.pupil_pixels;
+  for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
+    const std::string name =
+        fmt::format("plane {}, {}", plane + 1, format_length(run.design.planes[plane]));
+    const Image<double>& measured = frames.measured[plane];
+    const Image<double>& predicted = frames.predicted[plane];
+    const double brightest =
+        std::max(measured.maxCoeff<Eigen::PropagateNumbers>(), predicted.maxCoeff());
+    const auto add = [&](const std::string& title, const Image<double>& values, bool is_signed) {
+      picture.panels.push_back({title, "over the pupil's", values, pitch, is_signed, {}});
+      if (!is_signed) picture.panels.back().range = {0.0, brightest};
+    };
+    add(name + ": measured", measured, false);
+    add("predicted", predicted, false);
+    add(fmt::format("difference, {:.1f} % RMS", 100.0 * frames.planes[plane].relative_rms),
+        measured - predicted, true);
+  }
+  return picture;
 }
 
 void run_reconstruct(const Request& request) {
@@ -190,7 +297,13 @@ void run_reconstruct(const Request& request) {
 
   const FrameRun run{telescope, design, measured, sets};
   const std::vector<PlaneMeans> planes = plane_means(run);
-  const std::vector<std::string> notes = write_frame_files(run, record.folder());
+  const OutputFolder& folder = record.folder();
+  write_phases(run, folder);
+  write_images("frames.fits", run, folder, &FrameReconstruction::measured);
+  write_images("predicted.fits", run, folder, &FrameReconstruction::predicted);
+  folder.write("consistency.csv", consistency_table(run));
+  const std::vector<std::string> notes = draw_pictures(
+      {planned("phase", phase_picture(run)), planned("frames", images_picture(run))}, folder);
   record.write_summary(summary_of(run, seeing.fried_parameter, planes));
 
   for (const std::string& note : notes) record.print("note: {}\n", note);
@@ -235,7 +348,11 @@ Command reconstruct_command() {
                        .value_name = "FILE",
                        .description = "read the measured frames of this FITS file, as frames.file",
                        .key = "frames.file"}},
-          .files = frame_files(),
+          .files = joined({{{"consistency.csv", FileRole::table},
+                            {"phase.fits", FileRole::image},
+                            {"frames.fits", FileRole::image},
+                            {"predicted.fits", FileRole::image}},
+                           picture_files({"phase", "frames"})}),
           .verdict = of_reconstruct,
           .is_of_one_seeing = false};
 }

@@ -6,8 +6,6 @@
 #include "studies/run/page_data.hpp"
 #include "studies/settings/text.hpp"
 
-#include <set>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -3,8 +3,6 @@
 
 #include "studies/run/command.hpp"
 
-#include <filesystem>
-
 namespace nlcwfs {
 
 /// The command of an earlier run, which its summary.json names.

@@ -1,39 +1,31 @@
 // scale: A design moved to another telescope at constant Fresnel numbers.
 #include "model/input_error.hpp"
-#include "results/archive/run_files.hpp"
 #include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
-#include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/settings/setup.hpp"
 #include "studies/settings/units.hpp"
 
-#include <algorithm>
-
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
 
+/// Whether a key holds lengths of a sensor that a search or sweep varies.
+bool is_varied_length(const ConfigurationKey& key) {
+  return (key.kind == Kind::domain || key.kind == Kind::axis) && key.element == Kind::length;
+}
+
 /// Lengths of other sections that scale with a design.
-const std::vector<std::string> moved_lengths{"baseline.planes",    "objective.wfe_scale",
-                                             "response.distances", "search.tolerance",
-                                             "search.z1",          "search.z2",
-                                             "search.z3",          "search.z4",
-                                             "search.z5",          "search.z6",
-                                             "search.z_far",       "search.z_near",
-                                             "search.z_third",     "sweep.tolerance",
-                                             "sweep.z1",           "sweep.z2",
-                                             "sweep.z3",           "sweep.z4",
-                                             "sweep.z5",           "sweep.z6",
-                                             "sweep.z_far",        "sweep.z_near",
-                                             "sweep.z_third"};
+keys::Keys moved_lengths() {
+  keys::Keys moved{"baseline.planes", "objective.wfe_scale"};
+  for (const ConfigurationKey& key : configuration_keys()) {
+    if (is_varied_length(key)) moved.push_back(key.name);
+  }
+  return moved;
+}
 
 /// The telescope of the section scale; what is not set is as at the telescope that it comes from.
 Telescope scaled_telescope_of(const Configuration& configuration, Telescope telescope) {
@@ -52,28 +44,19 @@ Telescope scaled_telescope_of(const Configuration& configuration, Telescope tele
   return telescope;
 }
 
-/// Whether a key holds lengths of a sensor that a search or sweep varies.
-bool is_varied_length(const ConfigurationKey& key) {
-  return (key.kind == Kind::domain || key.kind == Kind::axis) && key.element == Kind::length;
-}
-
 /// The configuration of the design at the other telescope.
 Configuration scaled_configuration(const Configuration& configuration, const Telescope& from,
                                    const Telescope& to, const Seeing& seeing) {
   const double waves = to.wavelength / from.wavelength;
   Configuration scaled = configuration;
-  const auto set = [&](std::string_view key, const std::string& value) {
-    scaled.set(key, value, "by scale");
+  const auto set = [&](std::string_view key, const auto& value) {
+    scaled.set(key, fmt::format("{}", value), "by scale");
   };
-  set("telescope.diameter", fmt::format("{}", to.diameter));
-  set("telescope.wavelength", fmt::format("{}", to.wavelength));
-  if (to.relay_beam_diameter) {
-    set("telescope.relay_beam_diameter", fmt::format("{}", *to.relay_beam_diameter));
-  }
-  set("seeing.d_over_r0", fmt::format("{}", to.diameter / seeing.fried_parameter));
-  if (seeing.outer_scale) {
-    set("seeing.outer_scale", fmt::format("{}", *seeing.outer_scale));
-  }
+  set("telescope.diameter", to.diameter);
+  set("telescope.wavelength", to.wavelength);
+  if (to.relay_beam_diameter) set("telescope.relay_beam_diameter", *to.relay_beam_diameter);
+  set("seeing.d_over_r0", to.diameter / seeing.fried_parameter);
+  if (seeing.outer_scale) set("seeing.outer_scale", *seeing.outer_scale);
   // Every distance, so that the file also searches at the new telescope.
   const auto moved = [&](double distance) { return scaled_distance(distance, from, to); };
   for (const ConfigurationKey& key : configuration_keys()) {
@@ -97,10 +80,9 @@ Configuration scaled_configuration(const Configuration& configuration, const Tel
     set("source.bands", fmt::format("{}", fmt::join(bands, ",")));
   }
   // Equal designs are equal in waves, and so are their costs.
-  set("objective.wfe_scale", fmt::format("{}", configuration.length("objective.wfe_scale") *
-                                                   to.wavelength / from.wavelength));
-  set("reconstruction.tolerance",
-      fmt::format("{}", configuration.length("reconstruction.tolerance") * waves));
+  set("objective.wfe_scale",
+      configuration.length("objective.wfe_scale") * to.wavelength / from.wavelength);
+  set("reconstruction.tolerance", configuration.length("reconstruction.tolerance") * waves);
   return scaled;
 }
 
@@ -142,8 +124,8 @@ void run_scale(const Request& request) {
   record.close();
 }
 
-std::string of_scale(const nlohmann::ordered_json& summary) {
-  const nlohmann::ordered_json& telescope = summary.at("scaled_telescope");
+std::string of_scale(const Json& summary) {
+  const Json& telescope = summary.at("scaled_telescope");
   return fmt::format("Moved to {} at {}, with the same Fresnel numbers and D/r0.",
                      format_length(number_from_json(telescope.at("diameter_m"))),
                      format_length(number_from_json(telescope.at("wavelength_m"))));
@@ -160,7 +142,7 @@ Command scale_command() {
               "the same diffraction, and writes the moved design as scaled.cfg.",
           .keys = keys::joined({keys::site,
                                 {"sensor", "source.bands", "detector", "reconstruction", "scale"},
-                                moved_lengths}),
+                                moved_lengths()}),
           .examples = {"nlcwfs scale --config results/optimize-1/best.cfg --scale.diameter 8.2 "
                        "--scale.relay_beam_diameter 10mm"},
           .run = run_scale,

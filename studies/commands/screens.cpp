@@ -1,24 +1,15 @@
 // screens: Phase screens as a FITS cube, with their statistics.
-#include "model/pupil.hpp"
 #include "model/screen_statistics.hpp"
-#include "model/wavefront_metrics.hpp"
-#include "results/archive/run_files.hpp"
 #include "results/fits/fits_cube.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
-#include "results/text/design_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
 #include "studies/run/progress.hpp"
-#include "studies/run/request.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/settings/trials.hpp"
 
 #include <cmath>
-
-#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -43,8 +34,7 @@ std::string structure_function_table(const std::vector<PhaseScreen>& screens, do
       table.row()
           .add(direction.name)
           .add(separation)
-          .add(measured.mean)
-          .add(measured.standard_error)
+          .add(measured)
           .add(von_karman_structure_function(separation, seeing));
     }
   }
@@ -128,7 +118,7 @@ void run_screens(const Request& request) {
   record.close();
 }
 
-std::string of_screens(const nlohmann::ordered_json& summary) {
+std::string of_screens(const Json& summary) {
   return fmt::format("{} screens: piston-removed variance {} rad^2, Kolmogorov's {:.4g} rad^2.",
                      integer_from_json(summary.at("screens")),
                      figure_text(summary, "piston_removed_variance_rad2"),

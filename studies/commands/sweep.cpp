@@ -1,37 +1,23 @@
 // sweep: Every design of the configured grid, the best of them verified on fresh screens.
 #include "studies/search/sweep.hpp"
 
-#include "model/words.hpp"
-#include "objectives/design_space.hpp"
-#include "results/archive/run_files.hpp"
 #include "results/pictures/grid_picture.hpp"
 #include "results/pictures/picture_set.hpp"
 #include "results/tables/csv_table.hpp"
-#include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/axis_text.hpp"
-#include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/request.hpp"
-#include "studies/run/run_record.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
 
-#include <algorithm>
 #include <array>
 #include <iterator>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A value of an axis as people write it; lengths and times in SI.
 Json axis_value(const DesignGrid& grid, const GridAxis& axis, std::size_t place) {
@@ -39,10 +25,9 @@ Json axis_value(const DesignGrid& grid, const GridAxis& axis, std::size_t place)
   if (axis.name == "order") {
     return fmt::format("{}", fmt::join(grid.orders()[static_cast<std::size_t>(value)], ""));
   }
-  const auto& keys = configuration_keys();
-  const auto key = std::ranges::find(keys, "sweep." + axis.name, &ConfigurationKey::name);
-  if (key->element == Kind::choice) return key->choices[static_cast<std::size_t>(value)];
-  if (key->element == Kind::integer) return static_cast<int>(value);
+  const ConfigurationKey& key = key_named("sweep." + axis.name);
+  if (key.element == Kind::choice) return key.choices[static_cast<std::size_t>(value)];
+  if (key.element == Kind::integer) return static_cast<int>(value);
   return value;
 }
 
@@ -78,10 +63,8 @@ std::string points_table(const SweepTask& task, const std::vector<const SweepOut
                                    : outcome->failure);
       continue;
     }
-    table.add(outcome->cost.mean).add(outcome->cost.standard_error).add(outcome->violation);
-    for (const MeanAndError& metric : outcome->metrics) {
-      table.add(metric.mean).add(metric.standard_error);
-    }
+    table.add(outcome->cost).add(outcome->violation);
+    for (const MeanAndError& metric : outcome->metrics) table.add(metric);
     table.add("");
   }
   return table.text();
@@ -125,17 +108,15 @@ Json grid_object(const SweepTask& task, const std::vector<const SweepOutcome*>& 
     object["orders"].push_back(fmt::format("{}", fmt::join(order, "")));
   }
   Json errors;
-  object["cost"] =
-      matrix_of(grid, points, [](const SweepOutcome& point) { return point.cost.mean; });
-  errors["cost"] =
-      matrix_of(grid, points, [](const SweepOutcome& point) { return point.cost.standard_error; });
+  const auto add = [&](std::string_view name, const auto& figure) {
+    object[name] = matrix_of(grid, points, [&](const auto& point) { return figure(point).mean; });
+    errors[name] =
+        matrix_of(grid, points, [&](const auto& point) { return figure(point).standard_error; });
+  };
+  add("cost", [](const SweepOutcome& point) { return point.cost; });
   object["violation"] = matrix_of(grid, points, [](const SweepOutcome& p) { return p.violation; });
   for (std::size_t i = 0; i < task.metrics.size(); ++i) {
-    const std::string name(task.metrics[i].name);
-    object[name] =
-        matrix_of(grid, points, [i](const SweepOutcome& point) { return point.metrics[i].mean; });
-    errors[name] = matrix_of(
-        grid, points, [i](const SweepOutcome& point) { return point.metrics[i].standard_error; });
+    add(task.metrics[i].name, [i](const SweepOutcome& point) { return point.metrics[i]; });
   }
   object["standard_error"] = errors;
   return object;
@@ -155,7 +136,6 @@ constexpr std::array<MapFigure, 3> map_figures{{{"cost", "", "map-cost"},
 std::vector<std::string> draw_maps(const SweepTask& task, const Json& grid,
                                    const CostedDesign& best, const OutputFolder& folder) {
   std::vector<PlannedPicture> pictures;
-  pictures.reserve(map_figures.size());
   for (const MapFigure& map : map_figures) {
     pictures.push_back({map.file, [&, map](const auto& stem) {
                           return write_grid_picture(picture_title(task.telescope, task.seeing()),
@@ -167,23 +147,23 @@ std::vector<std::string> draw_maps(const SweepTask& task, const Json& grid,
 
 /// What people are told of a sweep.
 struct SweepResult {
-  const TriedDesign& best;               ///< on fresh screens
-  const TriedDesign& on_search_screens;  ///< the same design
-  const std::vector<RankedDesign>& ranking;
-  int evaluations;
-  int failures;
+  const std::vector<RankedDesign>& ranking;  ///< on fresh screens
+  const TriedDesign& on_search_screens;      ///< the best
+  std::size_t evaluations;
+  std::ptrdiff_t failures;
   std::size_t taken_over;  ///< designs of an earlier run
   double seconds;          ///< that the grid took
-  std::string precision;
+
+  const TriedDesign& best() const { return ranking.front().verified; }
 };
 
 Json summary_of(const SweepTask& task, const SweepResult& result, const Json& grid) {
   const auto conditions = static_cast<std::int64_t>(task.trial.conditions().size());
-  const std::int64_t tried = result.evaluations - result.failures;
+  const std::int64_t tried = static_cast<std::int64_t>(result.evaluations) - result.failures;
   const int screens = task.trial.screen_count();
   const std::int64_t fresh =
       static_cast<std::int64_t>(result.ranking.size()) * task.verification.screen_count();
-  return {{"best", to_json(result.best, task.verification)},
+  return {{"best", to_json(result.best(), task.verification)},
           {"best_on_search_screens", to_json(result.on_search_screens, task.trial)},
           {"ranking", to_json(result.ranking, task.verification)},
           {"grid", grid},
@@ -196,77 +176,68 @@ Json summary_of(const SweepTask& task, const SweepResult& result, const Json& gr
 
 void print_result(const RunRecord& record, const SweepTask& task, const SweepResult& result,
                   const std::vector<std::string>& notes) {
-  const Performance performance = pooled(result.best.performances);
+  const TriedDesign& best = result.best();
+  const Performance performance = pooled(best.performances);
   const Performance search_performance = pooled(result.on_search_screens.performances);
   for (const std::string& note : notes) record.print("note: {}\n", note);
   record.print("{}\n", telescope_line(task.telescope, task.seeing()));
   record.print(
       "Tried {} designs at {} points of a grid on {} screens in {} precision in {}{}{}.\n\n",
-      result.evaluations, task.grid.size(), task.trial.screen_count(), result.precision,
-      duration_text(result.seconds),
+      result.evaluations, task.grid.size(), task.trial.screen_count(),
+      word_of(task.search_precision), duration_text(result.seconds),
       result.taken_over > 0 ? fmt::format(" ({} of them in an earlier run)", result.taken_over)
                             : "",
       result.failures > 0 ? fmt::format("; {} of them failed, see sweep.csv", result.failures)
                           : "");
   record.print("Best design, planes in visiting order:\n{}\n",
-               planes_table(result.best.design, task.telescope, task.seeing(), &performance));
+               planes_table(best.design, task.telescope, task.seeing(), &performance));
   record.print(
       "On the sweep's {} screens, and on {} fresh ones with the true field {} samples across "
       "the pupil:\n{}",
       task.trial.screen_count(), task.verification.screen_count(),
       task.verification.conditions().front().simulation->truth_samples(),
       performance_table({{"sweep's screens", &search_performance, result.on_search_screens.costs},
-                         {"fresh screens", &performance, result.best.costs}}));
-  record.print("{}\n{}{}{}\n", conditions_table(result.best, task.verification),
-               ranking_text(result.ranking, "The sweep"),
-               limits_text(result.best, task.verification),
-               captured_energy_warnings(result.best.design, performance));
+                         {"fresh screens", &performance, best.costs}}));
+  record.print("{}\n{}{}{}\n", conditions_table(best, task.verification),
+               ranking_text(result.ranking, "The sweep"), limits_text(best, task.verification),
+               captured_energy_warnings(best.design, performance));
 }
 
 void run_sweep(const Request& request) {
-  const Configuration& configuration = request.configuration;
   const Stopwatch stopwatch;
-  SweepTask task(configuration);
+  SweepTask task(request.configuration);
   RunRecord record(request);
   for (DesignTrial* trial : {&task.trial, &task.verification}) record.adopt(*trial);
   const std::size_t taken_over = record.archive().known_designs(task.trial.identity());
   const double seconds_before = record.archive().seconds_before();
-  Sweep sweep(task, record);
+  Sweep sweep{task, record};
   sweep.run(request);
-  if (!sweep.is_complete()) {
-    throw RunInterrupted(fmt::format("{} of {} designs are done; {}", sweep.done(),
-                                     sweep.designs().size(), record.how_to_go_on()));
+  if (sweep.done < sweep.designs.size()) {
+    throw RunInterrupted(fmt::format("{} of {} designs are done; {}", sweep.done,
+                                     sweep.designs.size(), record.how_to_go_on()));
   }
 
-  const std::vector<const SweepOutcome*> points = outcomes_of_points(task, sweep);
+  const std::vector<const SweepOutcome*> points = outcomes_of_points(sweep);
   record.folder().write("sweep.csv", points_table(task, points));
   const std::vector<RankedDesign> ranking =
-      ranking_of(best_of(sweep, task.candidates), sweep, task, record, request.whole);
+      ranking_of(best_of(sweep, task.candidates), sweep, request.whole);
   const TriedDesign& best = ranking.front().verified;
   const TriedDesign on_search_screens = task.trial.run(best.design);
 
-  Configuration best_configuration = configuration;
-  set_design(best_configuration, best.design, task.grid.space(), "by the sweep");
-  record.folder().write("best.cfg", best_configuration.dump());
+  record.write_design("best.cfg", best.design, task.grid.space(), "by the sweep");
   const Json grid = grid_object(task, points);
   std::vector<std::string> notes = task.notes;
   std::ranges::move(
       draw_maps(task, grid, {best.design, mean_and_standard_error(on_search_screens.costs).mean},
                 record.folder()),
       std::back_inserter(notes));
-  const SweepResult result{
-      .best = best,
-      .on_search_screens = on_search_screens,
-      .ranking = ranking,
-      .evaluations = static_cast<int>(sweep.designs().size()),
-      .failures = static_cast<int>(std::ranges::count_if(
-          sweep.outcomes(), [](const auto& outcome) { return !outcome->failure.empty(); })),
-      .taken_over = taken_over,
-      .seconds = sweep.seconds(),
-      .precision = std::string(word_of(task.search_precision))};
+  const auto failures = std::ranges::count_if(
+      sweep.outcomes, [](const auto& outcome) { return !outcome->failure.empty(); });
+  const SweepResult result{ranking,  on_search_screens, sweep.designs.size(),
+                           failures, taken_over,        sweep.seconds};
   Json summary = summary_of(task, result, grid);
   summary["wall_seconds"] = seconds_before + stopwatch.seconds();
-  summary["search_seconds"] = sweep.seconds();
+  summary["search_seconds"] = sweep.seconds;
   if (!request.silent) {
     for (const MapFigure& map : map_figures) {
       write_grid_map(grid, map.name, map.unit,

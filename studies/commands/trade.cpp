@@ -1,54 +1,28 @@
 // trade: The designs that no other betters in all of the configured objectives, verified on fresh
 // screens.
-#include "model/words.hpp"
-#include "results/archive/run_files.hpp"
 #include "results/pictures/scatter_picture.hpp"
-#include "results/tables/csv_table.hpp"
-#include "results/tables/design_summary.hpp"
-#include "results/tables/json_numbers.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/axis_text.hpp"
-#include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
 #include "studies/commands/key_groups.hpp"
-#include "studies/run/command.hpp"
-#include "studies/run/request.hpp"
-#include "studies/run/run_record.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/run/verdict_text.hpp"
 #include "studies/search/closer_look.hpp"
+#include "studies/search/search_log.hpp"
 #include "studies/search/trade_search.hpp"
-#include "studies/settings/setup.hpp"
 
-#include <algorithm>
 #include <iterator>
 #include <map>
-#include <set>
-#include <utility>
 
 #include <boost/algorithm/string/replace.hpp>
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// A design's planes and its pixels across the pupil.
 std::pair<std::size_t, int> cell_of(const TradedDesign& traded) {
   const SensorDesign& design = traded.verified.design;
   return {design.planes.size(), design.detector.pupil_pixels};
-}
-
-/// The best in the first objective of each number of planes and pixels.
-std::map<std::pair<std::size_t, int>, std::size_t> cell_winners(const TradeResult& result) {
-  std::map<std::pair<std::size_t, int>, std::size_t> winners;
-  for (std::size_t i = 0; i < result.front.size(); ++i) {
-    // They are in order.
-    if (result.front[i].stands()) winners.emplace(cell_of(result.front[i]), i);
-  }
-  return winners;
 }
 
 Json front_array(const TradeSearch& task, const TradeResult& result) {
@@ -76,9 +50,15 @@ Json bests_object(const TradeSearch& task, const TradeResult& result) {
   return all;
 }
 
+/// The best in the first objective of each number of planes and pixels.
 Json winners_array(const TradeResult& result) {
+  std::map<std::pair<std::size_t, int>, std::size_t> best;
+  for (std::size_t i = 0; i < result.front.size(); ++i) {
+    // They are in order.
+    if (result.front[i].stands()) best.emplace(cell_of(result.front[i]), i);
+  }
   Json winners = Json::array();
-  for (const auto& [cell, design] : cell_winners(result)) {
+  for (const auto& [cell, design] : best) {
     winners.push_back(
         {{"plane_count", cell.first}, {"pupil_pixels", cell.second}, {"design", design}});
   }
@@ -123,10 +103,14 @@ std::string front_table(const TradeSearch& task, const TradeResult& result) {
       const MeanAndError value = k < traded.objectives.size()
                                      ? traded.objectives[k]
                                      : task.verification.mean_of(traded.verified, metrics[k]);
-      table.add(value.mean).add(value.standard_error);
+      table.add(value);
     }
   }
   return table.text();
+}
+
+MeanAndError mean_of(const TradeSearch& task, const TradedDesign& traded, std::string_view metric) {
+  return task.verification.mean_of(traded.verified, *find_design_metric(metric));
 }
 
 /// Total WFE against model time, whatever the objectives are.
@@ -150,12 +134,9 @@ ScatterPicture front_picture(const TradeSearch& task, const TradeResult& result)
   for (const int count : pixels) picture.symbols.push_back(fmt::format("{} pixels", count));
   for (const TradedDesign& traded : result.front) {
     const auto [plane_count, pupil_pixels] = cell_of(traded);
-    const auto mean_of = [&](std::string_view metric) {
-      return task.verification.mean_of(traded.verified, *find_design_metric(metric));
-    };
     picture.points.push_back(
-        {.x = 1e3 * mean_of("model_seconds").mean,
-         .y = mean_of("total_wfe_nm"),
+        {.x = 1e3 * mean_of(task, traded, "model_seconds").mean,
+         .y = mean_of(task, traded, "total_wfe_nm"),
          .colour = static_cast<int>(std::distance(planes.begin(), planes.find(plane_count))),
          .symbol = static_cast<int>(std::distance(pixels.begin(), pixels.find(pupil_pixels))),
          .is_pale = !traded.stands()});
@@ -173,33 +154,15 @@ std::string figure_text(const DesignMetric& metric, const MeanAndError& value) {
   return with_error(value) + (metric.unit.empty() ? "" : fmt::format(" {}", metric.unit));
 }
 
-/// How the search ended, for people.
-std::string_view trade_ending(Termination termination) {
-  switch (termination) {
-    case Termination::budget_exhausted:
-      return "all that trade.budget allows";
-    case Termination::time_limit:
-      return "until search.time_limit";
-    case Termination::stop_requested:
-      return "until it was interrupted";
-    default:
-      break;
-  }
-  return "until it brought forth no new ones";
-}
-
 std::string search_text(const TradeSearch& task, const TradeResult& result,
                         const Configuration& configuration) {
-  const std::size_t conditions = task.trial.conditions().size();
   const std::size_t found = result.search.front.size();
   const std::string planes = boost::algorithm::replace_first_copy(
       configuration.value_text("search.plane_count"), ":", " to ");
   std::string text =
-      fmt::format("Tried {} designs of {} planes on {} screens{} in {} precision in {}, {}",
-                  result.search.evaluations, planes, task.trial.screen_count(),
-                  conditions > 1 ? fmt::format(" under each of {} conditions", conditions) : "",
-                  word_of(task.search_precision), duration_text(result.search_seconds),
-                  trade_ending(result.search.termination));
+      tried_text(fmt::format("{} designs of {} planes", result.search.evaluations, planes),
+                 task.trial, task.search_precision, result.search_seconds,
+                 result.search.termination, "trade.budget", "until it brought forth no new ones");
   if (result.search.failures > 0) {
     text += fmt::format("; {} of them failed, see search.csv", result.search.failures);
   }
@@ -216,8 +179,20 @@ std::string search_text(const TradeSearch& task, const TradeResult& result,
   text += fmt::format(
       " were tried on {} fresh screens, true field {} samples across the pupil; {} stand there.\n",
       result.front.empty() ? 0 : result.front.front().verified.costs.size(),
-      task.verification.conditions().front().simulation->truth_samples(), result.standing_count());
+      task.verification.conditions().front().simulation->truth_samples(),
+      std::ranges::count_if(result.front, &TradedDesign::stands));
   return text;
+}
+
+/// "total_wfe_nm 5.61 +- 0.01 nm, model_seconds 3.2 ms"
+/// @param figures  of each objective
+std::string objectives_text(const TradeSearch& task, const std::vector<MeanAndError>& figures) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < task.objectives.size(); ++i) {
+    const DesignMetric& objective = task.objectives[i];
+    texts.push_back(fmt::format("{} {}", objective.name, figure_text(objective, figures[i])));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 /// The objectives that no other column of the front's table tells.
@@ -243,22 +218,18 @@ std::string front_text(const TradeSearch& task, const TradeResult& result) {
   for (std::size_t i = 0; i < result.front.size(); ++i) {
     const TradedDesign& traded = result.front[i];
     const SensorDesign& design = traded.verified.design;
-    const auto mean_of = [&](std::string_view metric) {
-      return task.verification.mean_of(traded.verified, *find_design_metric(metric));
-    };
-    std::string distances;
-    for (const double z : design.planes) {
-      distances += fmt::format("{}{:.3g}", distances.empty() ? "" : ", ", 1e-3 * z);
-    }
-    text +=
-        fmt::format("{:1} {:>6} {:>7} {:>7} {:>18} {:>7.1f} {:>11}", result.knee == i ? "*" : "", i,
-                    design.planes.size(), design.detector.pupil_pixels,
-                    with_error(mean_of("total_wfe_nm")), mean_of("fractional_loops").mean,
-                    figure_text(*find_design_metric("model_seconds"), mean_of("model_seconds")));
+    std::vector<double> distances = design.planes;
+    for (double& z : distances) z *= 1e-3;
+    text += fmt::format(
+        "{:1} {:>6} {:>7} {:>7} {:>18} {:>7.1f} {:>11}", result.knee == i ? "*" : "", i,
+        design.planes.size(), design.detector.pupil_pixels,
+        with_error(mean_of(task, traded, "total_wfe_nm")),
+        mean_of(task, traded, "fractional_loops").mean,
+        figure_text(*find_design_metric("model_seconds"), mean_of(task, traded, "model_seconds")));
     for (const std::size_t k : further) {
       text += fmt::format(" {:>22}", figure_text(task.objectives[k], traded.objectives[k]));
     }
-    text += fmt::format("   {}{}\n", distances,
+    text += fmt::format("   {:.3g}{}\n", fmt::join(distances, ", "),
                         traded.evaluated.violation > 0.0 ? "  breaks a limit there"
                         : traded.dominated               ? "  bettered there"
                         : traded.tied_with ? fmt::format("  a tie with {}", *traded.tied_with)
@@ -292,43 +263,25 @@ std::string knee_text(const TradeSearch& task, const TradeResult& result) {
     return "warning: no design was found that keeps objective.limits; there is no front.\n";
   }
   const TradedDesign& traded = result.front[*result.knee];
-  std::string figures;
-  for (std::size_t i = 0; i < task.objectives.size(); ++i) {
-    figures += fmt::format("{}{} {}", i > 0 ? ", " : "", task.objectives[i].name,
-                           figure_text(task.objectives[i], traded.objectives[i]));
-  }
   const Performance performance = pooled(traded.verified.performances);
   return fmt::format(
       "Knee (*), the best where all objectives weigh the same over their ranges on the front:\n{}"
       "  {}\n{}{}",
-      planes_table(traded.verified.design, task.telescope, task.seeing(), &performance), figures,
-      choices_text(task.space, traded.verified.design),
+      planes_table(traded.verified.design, task.telescope, task.seeing(), &performance),
+      objectives_text(task, traded.objectives), choices_text(task.space, traded.verified.design),
       captured_energy_warnings(traded.verified.design, performance));
 }
 
 std::string hypervolume_text(const TradeSearch& task, const TradeResult& result) {
-  std::string point;
-  for (std::size_t i = 0; i < task.objectives.size(); ++i) {
-    point += fmt::format("{}{} {}", i > 0 ? ", " : "", task.objectives[i].name,
-                         figure_text(task.objectives[i], {result.reference_point[i], 0.0}));
-  }
+  std::vector<MeanAndError> point;
+  for (const double figure : result.reference_point) point.push_back({figure, 0.0});
   return fmt::format(
       "The front dominates {:.1f} % of the room between the best conceivable values and the "
       "reference point\n({}{}).\n",
-      100.0 * result.hypervolume_fraction, point,
+      100.0 * result.hypervolume_fraction, objectives_text(task, point),
       result.reference_is_of_the_run
           ? "; in part the worst of this run's first designs, so not to be compared with other runs"
           : "");
-}
-
-void note_interruption(RunRecord& record, const TradeSearch& task, const TradeResult& result) {
-  if (result.verification_interrupted) {
-    record.note_interrupted(
-        fmt::format("{} of {} designs were verified", result.front.size(), result.chosen_count));
-  } else if (result.search.termination == Termination::stop_requested) {
-    record.note_interrupted(fmt::format("{} of {} designs were tried", result.search.evaluations,
-                                        task.options.evaluation.budget));
-  }
 }
 
 void run_trade(const Request& request) {
@@ -338,15 +291,19 @@ void run_trade(const Request& request) {
   RunRecord record(request);
   for (DesignTrial* trial : {&task.trial, &task.verification}) record.adopt(*trial);
   const TradeResult result = task.run(record);
-  note_interruption(record, task, result);
+  if (result.verification_interrupted) {
+    record.note_interrupted(
+        fmt::format("{} of {} designs were verified", result.front.size(), result.chosen_count));
+  } else if (result.search.termination == Termination::stop_requested) {
+    record.note_interrupted(fmt::format("{} of {} designs were tried", result.search.evaluations,
+                                        task.options.evaluation.budget));
+  }
 
   record.folder().write("front.csv", front_table(task, result));
   record.folder().write("search.csv", result.table);
   if (result.knee) {
-    Configuration knee_configuration = configuration;
-    set_design(knee_configuration, result.front[*result.knee].verified.design, task.space,
-               "by the trade");
-    record.folder().write("knee.cfg", knee_configuration.dump());
+    record.write_design("knee.cfg", result.front[*result.knee].verified.design, task.space,
+                        "by the trade");
   }
   const auto no_picture = write_picture(front_picture(task, result), record.folder().file("front"));
   std::vector<std::string> notes = task.notes;
@@ -420,7 +377,7 @@ Command trade_command() {
       .keys = keys::joined({keys::site,
                             keys::simulation,
                             keys::judgement,
-                            keys::space,
+                            keys::space(),
                             keys::fresh_screens,
                             {"trade"}}),
       .examples = {"nlcwfs trade --trade.objectives total_wfe_nm,model_seconds,plane_count"},

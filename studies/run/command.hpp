@@ -4,11 +4,6 @@
 #include "results/archive/run_files.hpp"
 #include "studies/run/request.hpp"
 
-#include <filesystem>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <nlohmann/json.hpp>
 
 namespace nlcwfs {

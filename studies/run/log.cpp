@@ -1,6 +1,7 @@
 // What goes to standard error while a command runs.
 #include "studies/run/log.hpp"
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -21,19 +22,9 @@ constexpr const char* progress_name = "progress";
 /// Returns to the start of the line and erases it (ECMA-48).
 constexpr std::string_view erase_line = "\r\x1b[K";
 
-spdlog::level::level_enum spdlog_level(LogLevel level) {
-  switch (level) {
-    case LogLevel::error:
-      return spdlog::level::err;
-    case LogLevel::warning:
-      return spdlog::level::warn;
-    case LogLevel::info:
-      return spdlog::level::info;
-    case LogLevel::debug:
-      break;
-  }
-  return spdlog::level::debug;
-}
+/// Of each LogLevel.
+constexpr std::array spdlog_levels{spdlog::level::err, spdlog::level::warn, spdlog::level::info,
+                                   spdlog::level::debug};
 
 /// A terminal may have been made narrower since the last line.
 std::size_t terminal_columns() {
@@ -87,7 +78,7 @@ void start_log(LogLevel level) {
   const auto progress = std::make_shared<spdlog::logger>(progress_name, sink);
   spdlog::register_logger(progress);
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("nlcwfs", sink));
-  spdlog::set_level(spdlog_level(level));
+  spdlog::set_level(spdlog_levels.at(static_cast<std::size_t>(level)));
 }
 
 void show_progress_line(std::string_view text) {

@@ -2,8 +2,6 @@
 #include "studies/run/page_data.hpp"
 
 #include "model/input_error.hpp"
-#include "model/telescope.hpp"
-#include "objectives/design_space.hpp"
 #include "results/archive/output_folder.hpp"
 #include "results/fits/fits_cube.hpp"
 #include "results/page/page.hpp"
@@ -20,11 +18,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -128,116 +121,109 @@ class Gathering {
  public:
   Gathering(Path folder, const Command& command) : folder_(std::move(folder)), command_(command) {}
 
-  Json data();
+  Json data() {
+    Json summary = summary_of_run(folder_);
+    summary.erase("config");
+    data_ = {{"command", command_.name},
+             {"version", version_of(summary)},
+             {"written", time_of(folder_ / "summary.json")},
+             {"notes", Json::array()},
+             {"summary", summary}};
+    attempt("the verdict cannot be told", [&] { data_["verdict"] = command_.verdict(summary); });
+    add_configuration();
+    add_files();
+    if (summary.contains("grid") && summary.contains("best")) {
+      attempt("the best is not marked", [&] {
+        data_["best_place"] = grid_place(summary.at("grid"), design_from_json(summary.at("best")));
+      });
+    }
+    if (!missing_.empty()) {
+      data_["notes"].push_back(fmt::format("Not in the folder, and so not on this page: {}.",
+                                           fmt::join(missing_, ", ")));
+    }
+    return std::move(data_);
+  }
 
  private:
-  void add_configuration();
-  void add_files();
-  void add_file(const std::string& name, FileRole role);
   /// Does what may fail for want of a member or by an older configuration.
-  void attempt(const std::string& what, const std::function<void()>& action);
+  void attempt(const std::string& what, const std::function<void()>& action) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      data_["notes"].push_back(fmt::format("{}: {}", what, error.what()));
+    }
+  }
+
+  /// What the page says of the telescope, and the configurations of a front.
+  void add_configuration() {
+    const auto text = text_of(folder_ / "config.cfg");
+    if (!text) {
+      missing_.emplace_back("config.cfg");
+      return;
+    }
+    data_["configuration"] = *text;
+    attempt("config.cfg is not of this version of the program", [&] {
+      Configuration configuration;
+      configuration.read_file(folder_ / "config.cfg");
+      const Telescope telescope = telescope_of(configuration);
+      const Seeing seeing = seeing_of(configuration, telescope);
+      data_["diameter_m"] = telescope.diameter;
+      if (command_.is_of_one_seeing) {
+        data_["telescope"] = telescope_line(telescope, seeing);
+        data_["talbot_m"] = talbot_distance(seeing.fried_parameter, telescope.wavelength);
+      } else {
+        data_["telescope"] = fmt::format("{:.4g} m telescope at {}", telescope.diameter,
+                                         format_length(telescope.wavelength));
+      }
+      const Json& summary = data_.at("summary");
+      if (!summary.contains("front")) return;
+      data_["front_configurations"] = front_configurations(summary.at("front"), configuration);
+    });
+  }
+
+  void add_file(const std::string& name, FileRole role) {
+    const Path path = folder_ / name;
+    switch (role) {
+      case FileRole::hidden:
+        break;
+      case FileRole::design:
+        data_["design_configuration"] = {{"file", name}, {"text", text_of_file(path)}};
+        break;
+      case FileRole::table:
+        data_["tables"][name] = columns_of(read_csv(path));
+        break;
+      case FileRole::image:
+        data_["images"][name] = images_of(path);
+        break;
+      case FileRole::picture:
+        data_["pictures"][name] = text_of_file(path);
+    }
+  }
+
+  /// Those that the page shows.
+  void add_files() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::ranges::sort(names);
+    for (const RunFile& file : command_.files) {
+      if (file.role == FileRole::hidden) continue;
+      bool is_there = false;
+      for (const std::string& name : names) {
+        if (!is_named(name, {&file, 1})) continue;
+        is_there = true;
+        attempt(name, [&] { add_file(name, file.role); });
+      }
+      if (!is_there && file.is_certain) missing_.push_back(file.name);
+    }
+  }
 
   Path folder_;
   const Command& command_;
   Json data_;
   std::vector<std::string> missing_;
 };
-
-void Gathering::attempt(const std::string& what, const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    data_["notes"].push_back(fmt::format("{}: {}", what, error.what()));
-  }
-}
-
-/// What the page says of the telescope, and the configurations of a front.
-void Gathering::add_configuration() {
-  const auto text = text_of(folder_ / "config.cfg");
-  if (!text) {
-    missing_.emplace_back("config.cfg");
-    return;
-  }
-  data_["configuration"] = *text;
-  attempt("config.cfg is not of this version of the program", [&] {
-    Configuration configuration;
-    configuration.read_file(folder_ / "config.cfg");
-    const Telescope telescope = telescope_of(configuration);
-    const Seeing seeing = seeing_of(configuration, telescope);
-    data_["diameter_m"] = telescope.diameter;
-    if (command_.is_of_one_seeing) {
-      data_["telescope"] = telescope_line(telescope, seeing);
-      data_["talbot_m"] = talbot_distance(seeing.fried_parameter, telescope.wavelength);
-    } else {
-      data_["telescope"] = fmt::format("{:.4g} m telescope at {}", telescope.diameter,
-                                       format_length(telescope.wavelength));
-    }
-    const Json& summary = data_.at("summary");
-    if (!summary.contains("front")) return;
-    data_["front_configurations"] = front_configurations(summary.at("front"), configuration);
-  });
-}
-
-void Gathering::add_file(const std::string& name, FileRole role) {
-  const Path path = folder_ / name;
-  switch (role) {
-    case FileRole::hidden:
-      break;
-    case FileRole::design:
-      data_["design_configuration"] = {{"file", name}, {"text", text_of_file(path)}};
-      break;
-    case FileRole::table:
-      data_["tables"][name] = columns_of(read_csv(path));
-      break;
-    case FileRole::image:
-      data_["images"][name] = images_of(path);
-      break;
-    case FileRole::picture:
-      data_["pictures"][name] = text_of_file(path);
-  }
-}
-
-/// Those that the page shows.
-void Gathering::add_files() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::ranges::sort(names);
-  for (const RunFile& file : command_.files) {
-    if (file.role == FileRole::hidden) continue;
-    bool is_there = false;
-    for (const std::string& name : names) {
-      if (!is_named(name, {&file, 1})) continue;
-      is_there = true;
-      attempt(name, [&] { add_file(name, file.role); });
-    }
-    if (!is_there && file.is_certain) missing_.push_back(file.name);
-  }
-}
-
-Json Gathering::data() {
-  Json summary = summary_of_run(folder_);
-  summary.erase("config");
-  data_ = {{"command", command_.name},
-           {"version", version_of(summary)},
-           {"written", time_of(folder_ / "summary.json")},
-           {"notes", Json::array()},
-           {"summary", summary}};
-  attempt("the verdict cannot be told", [&] { data_["verdict"] = command_.verdict(summary); });
-  add_configuration();
-  add_files();
-  if (summary.contains("grid") && summary.contains("best")) {
-    attempt("the best is not marked", [&] {
-      data_["best_place"] = grid_place(summary.at("grid"), design_from_json(summary.at("best")));
-    });
-  }
-  if (!missing_.empty()) {
-    data_["notes"].push_back(
-        fmt::format("Not in the folder, and so not on this page: {}.", fmt::join(missing_, ", ")));
-  }
-  return std::move(data_);
-}
 
 }  // namespace
 

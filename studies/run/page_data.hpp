@@ -3,10 +3,6 @@
 
 #include "studies/run/command.hpp"
 
-#include <filesystem>
-
-#include <nlohmann/json.hpp>
-
 namespace nlcwfs {
 
 /// summary.json of a run.

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <memory>
 #include <spdlog/spdlog.h>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -7,7 +7,6 @@
 
 #include <limits>
 #include <mutex>
-#include <string>
 
 namespace nlcwfs {
 

@@ -4,12 +4,7 @@
 #include "studies/run/log.hpp"
 #include "studies/settings/configuration.hpp"
 
-#include <filesystem>
 #include <memory>
-#include <optional>
-#include <set>
-#include <string>
-#include <vector>
 
 namespace nlcwfs {
 

@@ -4,11 +4,12 @@
 #include "results/archive/archive_memory.hpp"
 #include "results/tables/json_text.hpp"
 #include "results/tables/text_file.hpp"
-#include "studies/run/command.hpp"
 #include "studies/run/page_data.hpp"
 #include "studies/run/version.hpp"
+#include "studies/settings/setup.hpp"
+#include "studies/settings/text.hpp"
 
-#include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace nlcwfs {
 
@@ -75,16 +76,33 @@ void RunRecord::note_missing_screens(const TriedDesign& tried, const DesignTrial
   note_interrupted(fmt::format("{} of {} screens were done", done, trial.screen_count()));
 }
 
+void RunRecord::add(const ArchivedEvaluation& evaluation) {
+  archive_.add(evaluation);
+  if (evaluation.failure.empty()) {
+    spdlog::debug("{}: a design, cost {:.6g}, {:.3g} s", evaluation.stage, evaluation.cost,
+                  evaluation.seconds);
+  } else {
+    spdlog::debug("{}: a design failed, {:.3g} s: {}", evaluation.stage, evaluation.seconds,
+                  without_controls(evaluation.failure));
+  }
+}
+
+void RunRecord::write_design(std::string_view file, const SensorDesign& design,
+                             const DesignSpace& space, std::string_view source) const {
+  Configuration configuration = request_.configuration;
+  set_design(configuration, design, space, source);
+  folder_.write(file, configuration.dump());
+}
+
 void RunRecord::write_summary(const nlohmann::ordered_json& results) {
   // Before the run counts as complete.
   archive_.commit();
   folder_.sync();
   nlohmann::ordered_json config;
   for (const ConfigurationKey& key : configuration_keys()) {
-    const Configuration& configuration = request_.configuration;
-    const std::string& value = configuration.value_text(key.name);
-    config[key.name] =
-        value.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
+    const std::string& value = request_.configuration.value_text(key.name);
+    config[key.name] = nullptr;
+    if (!value.empty()) config[key.name] = value;
   }
   nlohmann::ordered_json summary{{"command", request_.command->name},
                                  {"version", version()},

@@ -8,11 +8,6 @@
 #include "studies/run/interrupt.hpp"
 #include "studies/run/request.hpp"
 
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <utility>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +45,13 @@ class RunRecord {
 
   /// The same where a design was not tried on all screens of the trial.
   void note_missing_screens(const TriedDesign& tried, const DesignTrial& trial);
+
+  /// Archives an evaluation, and logs it: its stage, cost or failure, and how long it took.
+  void add(const ArchivedEvaluation& evaluation);
+
+  /// Writes the run's configuration with what a space decides on as a design has it.
+  void write_design(std::string_view file, const SensorDesign& design, const DesignSpace& space,
+                    std::string_view source) const;
 
   /// Writes summary.json: command, version, whether the run was interrupted, config (every key with
   /// its text, null where not set), then `results`. From it and the files that are there already it

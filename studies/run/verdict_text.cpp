@@ -1,14 +1,9 @@
 // What the verdicts of several commands say alike.
 #include "studies/run/verdict_text.hpp"
 
-#include "results/tables/json_numbers.hpp"
-#include "results/text/design_text.hpp"
-
 #include <fmt/format.h>
 
 namespace nlcwfs {
-
-using Json = nlohmann::ordered_json;
 
 std::string figure_text(const Json& object, const char* name) {
   const MeanAndError value = mean_from_json(object.at(name));

@@ -11,13 +11,11 @@
 #include "results/text/quantity_text.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
@@ -38,13 +36,8 @@ struct ShownScreen {
   double residual_nm() const { return record.performance.wavefront.residual_wfe / nm; }
 };
 
-/// Indices among all screens of all conditions.
-struct ChosenScreens {
-  std::size_t typical;
-  std::size_t worst;
-};
-
-ChosenScreens chosen_screens(const Performance& performance) {
+/// The typical one and the worst: indices among all screens of all conditions.
+std::pair<std::size_t, std::size_t> chosen_screens(const Performance& performance) {
   std::vector<std::size_t> order(performance.screens.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(
@@ -123,11 +116,7 @@ std::string loops_table(const ShownScreen& typical, const ShownScreen& worst) {
     table.row().add(double(loop + 1));
     for (const std::vector<double>* residuals : {&of_typical, &of_worst}) {
       // A screen that has stopped has no value any more.
-      if (loop < residuals->size()) {
-        table.add((*residuals)[loop] / nm);
-      } else {
-        table.add("");
-      }
+      table.add(loop < residuals->size() ? std::optional((*residuals)[loop] / nm) : std::nullopt);
     }
   }
   return table.text();
@@ -175,19 +164,14 @@ ImagePicture phases_picture(const ShownScreen& shown) {
                record.reconstructed_phase.minCoeff<Eigen::PropagateNumbers>()),
       std::max(record.true_phase.maxCoeff<Eigen::PropagateNumbers>(),
                record.reconstructed_phase.maxCoeff<Eigen::PropagateNumbers>())};
+  const auto phase = [&](const std::string& title, const Image<double>& values) {
+    return ImagePanel{title, "phase, rad", values, pitch, false, range};
+  };
   const double nm_per_radian = shown.telescope().wavelength / (2.0 * std::numbers::pi) / nm;
   return {.title = title_of(shown),
           .axis_unit = "m",
-          .panels = {{.title = "true",
-                      .value_label = "phase, rad",
-                      .values = record.true_phase,
-                      .pitch = pitch,
-                      .range = range},
-                     {.title = "reconstructed",
-                      .value_label = "phase, rad",
-                      .values = record.reconstructed_phase,
-                      .pitch = pitch,
-                      .range = range},
+          .panels = {phase("true", record.true_phase),
+                     phase("reconstructed", record.reconstructed_phase),
                      {.title = fmt::format("residual, RMS {:.3g} nm", shown.residual_nm()),
                       .value_label = "path, nm",
                       .values = nm_per_radian * record.residual_phase,
@@ -229,9 +213,9 @@ std::vector<RunFile> closer_look_files(bool is_certain) {
 
 CloserLook look_closer(const DesignTrial& trial, const TriedDesign& tried,
                        const OutputFolder& folder) {
-  const ChosenScreens chosen = chosen_screens(pooled(tried.performances));
-  const ShownScreen typical = shown_screen("typical", trial, tried.design, chosen.typical);
-  const ShownScreen worst = shown_screen("worst", trial, tried.design, chosen.worst);
+  const auto [median, last] = chosen_screens(pooled(tried.performances));
+  const ShownScreen typical = shown_screen("typical", trial, tried.design, median);
+  const ShownScreen worst = shown_screen("worst", trial, tried.design, last);
   for (const ShownScreen* shown : {&typical, &worst}) {
     write_images(*shown, folder);
     write_phases(*shown, folder);
@@ -240,22 +224,16 @@ CloserLook look_closer(const DesignTrial& trial, const TriedDesign& tried,
 
   const std::string title =
       picture_title(typical.telescope(), {.fried_parameter = typical.condition->fried_parameter});
-  std::vector<PlannedPicture> pictures{
-      {"design",
-       [&](const auto& stem) {
-         return write_design_picture(title, typical.design, typical.telescope(),
-                                     typical.condition->fried_parameter, stem);
-       }},
-      {"loops", [&](const auto& stem) {
-         return write_picture(loops_picture(typical, worst, title), stem);
-       }}};
+  std::vector<PlannedPicture> pictures{{"design",
+                                        [&](const auto& stem) {
+                                          return write_design_picture(
+                                              title, typical.design, typical.telescope(),
+                                              typical.condition->fried_parameter, stem);
+                                        }},
+                                       planned("loops", loops_picture(typical, worst, title))};
   for (const ShownScreen* shown : {&typical, &worst}) {
-    pictures.push_back({shown->name + "-images", [shown](const auto& stem) {
-                          return write_picture(images_picture(*shown), stem);
-                        }});
-    pictures.push_back({shown->name + "-phases", [shown](const auto& stem) {
-                          return write_picture(phases_picture(*shown), stem);
-                        }});
+    pictures.push_back(planned(shown->name + "-images", images_picture(*shown)));
+    pictures.push_back(planned(shown->name + "-phases", phases_picture(*shown)));
   }
   return {{{"typical", screen_object(typical, trial)}, {"worst", screen_object(worst, trial)}},
           draw_pictures(pictures, folder)};

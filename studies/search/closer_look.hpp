@@ -3,7 +3,6 @@
 
 #include "objectives/design_trial.hpp"
 #include "results/archive/output_folder.hpp"
-#include "results/archive/run_files.hpp"
 
 #include <string>
 #include <vector>

@@ -4,20 +4,10 @@
 #include "model/input_error.hpp"
 #include "objectives/design_problem.hpp"
 #include "results/tables/design_summary.hpp"
-#include "studies/run/interrupt.hpp"
-#include "studies/run/progress.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/search/search_log.hpp"
 #include "studies/settings/text.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <optional>
-#include <stdexcept>
-#include <stop_token>
-#include <utility>
-
-#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -45,8 +35,17 @@ SearchOptions search_options_of(const Configuration& configuration,
   return options;
 }
 
-/// With each value that a space's discrete variables have, and both ends of the others, one at a
-/// time.
+}  // namespace
+
+void require_variables(const std::vector<SubSpace>& sub_spaces) {
+  for (const SubSpace& sub_space : sub_spaces) {
+    if (!sub_space.variables.empty()) continue;
+    throw InputError("search.plane_count", sub_space.name,
+                     "nothing of this design may vary; give a key of the section search a range or "
+                     "a list");
+  }
+}
+
 std::vector<SensorDesign> outstanding_designs(const DesignSpace& space) {
   std::vector<SensorDesign> designs;
   const std::vector<SubSpace> sub_spaces = space.sub_spaces();
@@ -66,24 +65,8 @@ std::vector<SensorDesign> outstanding_designs(const DesignSpace& space) {
   return designs;
 }
 
-}  // namespace
-
-void require_variables(const std::vector<SubSpace>& sub_spaces) {
-  for (const SubSpace& sub_space : sub_spaces) {
-    if (!sub_space.variables.empty()) continue;
-    throw InputError("search.plane_count", sub_space.name,
-                     "nothing of this design may vary; give a key of the section search a range or "
-                     "a list");
-  }
-}
-
 void require_valid_designs(const DesignSpace& space, const DesignTrial& trial) {
   for (const SensorDesign& design : outstanding_designs(space)) trial.checked(design);
-}
-
-void require_verifiable_designs(const DesignSpace& space, const DesignTrial& verification,
-                                const FreshScreens& fresh) {
-  require_verifiable(verification, outstanding_designs(space), fresh);
 }
 
 DesignSearch::DesignSearch(const Configuration& configuration)
@@ -97,10 +80,7 @@ DesignSearch::DesignSearch(const Configuration& configuration)
       candidates_(configuration.integer("verify.candidates")) {
   require_valid_designs(space, trial);
   require_verifiable(verification, {baseline}, fresh);
-  require_verifiable_designs(space, verification, fresh);
-  if (!screen_source.file.empty()) {
-    notes.emplace_back("the verification is on simulated screens of the configured seeing");
-  }
+  require_verifiable(verification, outstanding_designs(space), fresh);
   // The user's own designs are tried first.
   for (const SensorDesign& known : {design, baseline}) {
     if (const auto point = space.point_of(known)) options.starts.push_back(*point);
@@ -181,9 +161,6 @@ void DesignSearch::verify(RunRecord& record, const Progress* whole,
     result.reconstructions +=
         static_cast<long>(verification.conditions().size() * tried.costs.size());
   };
-  const auto is_whole = [&](const TriedDesign& tried) {
-    return static_cast<int>(tried.costs.size()) == verification.screen_count();
-  };
   // The baseline first: whatever is done later can then be held against it.
   result.baseline = verified_design(baseline, verification, record, watch());
   count_screens(result.baseline);
@@ -198,7 +175,7 @@ void DesignSearch::verify(RunRecord& record, const Progress* whole,
       continue;
     }
     count_screens(*tried);
-    if (!is_whole(*tried) && !candidates.empty()) break;
+    if (!is_whole(*tried, verification) && !candidates.empty()) break;
     candidates.push_back({.candidate = i, .verified = std::move(*tried)});
     if (may_end && InterruptWatch::interrupted()) break;
   }
@@ -254,16 +231,8 @@ SearchResult DesignSearch::search_stage(const std::string& name, const DesignSpa
                                         const DesignTrial& stage_trial, SearchOptions stage_options,
                                         RunRecord& record, std::string then, const Progress* whole,
                                         DesignSearchResult& result) const {
-  SearchLog log(name, stage_space, telescope, seeing().fried_parameter, stage_options.evaluation,
-                record.archive(), std::move(then), whole);
+  SearchLog log(name, stage_space, *this, stage_options.evaluation, record, std::move(then), whole);
   DesignProblem problem(stage_space, stage_trial, {}, log.interruptible());
-  std::stop_source stop;
-  if (InterruptWatch::interrupted()) stop.request_stop();
-  stage_options.evaluation.stop = stop.get_token();
-  stage_options.evaluation.observer = [&](const EvaluationRecord& evaluation) {
-    log.add(evaluation);
-    if (InterruptWatch::interrupted()) stop.request_stop();
-  };
   SearchResult found = search(problem, stage_options);
   result.search_reconstructions += log.reconstructions();
   result.given_up += log.given_up();

@@ -1,35 +1,22 @@
 // One best design is searched, verified, and how far it may move is scanned.
 #pragma once
 
-#include "objectives/design_comparison.hpp"
-#include "objectives/design_space.hpp"
-#include "objectives/design_trial.hpp"
-#include "objectives/optimum_range.hpp"
 #include "optimizer/chained_search.hpp"
 #include "results/pictures/search_pictures.hpp"
-#include "studies/run/run_record.hpp"
 #include "studies/search/verified_ranking.hpp"
-#include "studies/settings/trials.hpp"
-
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace nlcwfs {
 
 /// @throws InputError where all of some sub-space's design is fixed
 void require_variables(const std::vector<SubSpace>& sub_spaces);
 
-/// Checks each value that a space's discrete variables have, and both ends of the others, one at a
+/// With each value that a space's discrete variables have, and both ends of the others, one at a
 /// time.
+std::vector<SensorDesign> outstanding_designs(const DesignSpace& space);
+
+/// Checks these.
 /// @throws InputError where the trial cannot have such a design
 void require_valid_designs(const DesignSpace& space, const DesignTrial& trial);
-
-/// The same with the trial of the section verify.
-/// @throws InputError naming verify.truth_factor
-void require_verifiable_designs(const DesignSpace& space, const DesignTrial& verification,
-                                const FreshScreens& fresh);
 
 /// What a search found, and what it took.
 struct DesignSearchResult {

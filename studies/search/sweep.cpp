@@ -4,22 +4,11 @@
 #include "model/input_error.hpp"
 #include "optimizer/all_at_once.hpp"
 #include "optimizer/failure_count.hpp"
-#include "optimizer/problem.hpp"
 #include "results/tables/design_summary.hpp"
-#include "studies/run/evaluation_log.hpp"
-#include "studies/run/interrupt.hpp"
-#include "studies/run/progress.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/settings/sweep_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
-#include <stdexcept>
-#include <utility>
-
-#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -55,9 +44,6 @@ SweepTask::SweepTask(const Configuration& configuration)
       metrics(metrics_of(trial.cost().operation)),
       candidates(static_cast<std::size_t>(configuration.integer("verify.candidates"))) {
   require_verifiable(verification, {design}, fresh);
-  if (!screen_source.file.empty()) {
-    notes.emplace_back("the verification is on simulated screens of the configured seeing");
-  }
 }
 
 namespace {
@@ -78,14 +64,11 @@ std::optional<Tried> tried_design(const GridDesign& design, const SweepTask& tas
       .stage = "sweep",
       .design = to_json(design.design, task.telescope, task.seeing().fried_parameter).dump(),
       .cost = std::numeric_limits<double>::quiet_NaN(),
-      .failure = {},
-      .seconds = 0.0,
-      .performance = {},
       .key = design.key};
   try {
     const TriedDesign tried =
         task.trial.run(design.design, {}, [] { return !InterruptWatch::interrupted(); });
-    if (static_cast<int>(tried.costs.size()) < task.trial.screen_count()) return std::nullopt;
+    if (!is_whole(tried, task.trial)) return std::nullopt;
     result.outcome.cost = mean_and_standard_error(tried.costs);
     if (!std::isfinite(result.outcome.cost.mean)) {
       throw std::runtime_error(fmt::format("the cost is {}", result.outcome.cost.mean));
@@ -114,16 +97,15 @@ std::optional<Tried> tried_design(const GridDesign& design, const SweepTask& tas
 }  // namespace
 
 void Sweep::run(const Request& request) {
-  Archive& archive = record_.archive();
-  Progress progress("sweep", double(designs_.size()), "designs", "then the verification",
+  Progress progress("sweep", double(designs.size()), "designs", "then the verification",
                     request.whole);
   const Stopwatch stopwatch;
   FailureCount failures;
   const std::size_t together =
       request.runner ? batch_size_of_thread * static_cast<std::size_t>(request.runner->threads())
                      : batch_size;
-  for (std::size_t first = 0; first < designs_.size(); first += together) {
-    const std::size_t count = std::min(together, designs_.size() - first);
+  for (std::size_t first = 0; first < designs.size(); first += together) {
+    const std::size_t count = std::min(together, designs.size() - first);
     std::vector<std::optional<Tried>> batch(count);
     std::size_t next = 0;
     std::mutex lock;
@@ -131,22 +113,22 @@ void Sweep::run(const Request& request) {
     const auto take_next = [&] {
       const std::size_t i = next++;
       if (!batch[i]) return;
-      archive_and_log(archive, batch[i]->evaluation);
-      outcomes_[first + i] = std::move(batch[i]->outcome);
-      ++done_;
+      record.add(batch[i]->evaluation);
+      outcomes[first + i] = std::move(batch[i]->outcome);
+      ++done;
       if (batch[i]->is_refused) return;
-      failures.add(!outcomes_[first + i]->failure.empty());
+      failures.add(!outcomes[first + i]->failure.empty());
       if (failures.is_too_high()) {
         throw std::runtime_error(fmt::format(
             "{} of {} designs failed one after the other, the last with: {}; the archive has all "
             "of them: nlcwfs export {}",
-            failures.in_a_row(), designs_.size(), outcomes_[first + i]->failure,
-            record_.folder().path().string()));
+            failures.in_a_row(), designs.size(), outcomes[first + i]->failure,
+            record.folder().path().string()));
       }
     };
     all_at_once(count, [&](std::size_t i) {
       if (InterruptWatch::interrupted()) return;
-      std::optional<Tried> tried = tried_design(designs_[first + i], task_);
+      std::optional<Tried> tried = tried_design(designs[first + i], task);
       progress.advance();
       const std::scoped_lock guard(lock);
       batch[i] = std::move(tried);
@@ -156,21 +138,21 @@ void Sweep::run(const Request& request) {
     // Those behind one that an interrupt ended.
     while (next < count) take_next();
   }
-  seconds_ = archive.seconds_before() + stopwatch.seconds();
+  seconds = record.archive().seconds_before() + stopwatch.seconds();
 }
 
 std::vector<std::size_t> best_of(const Sweep& sweep, std::size_t most) {
   std::vector<std::size_t> designs;
-  for (std::size_t i = 0; i < sweep.designs().size(); ++i) {
-    if (sweep.outcomes()[i]->failure.empty()) designs.push_back(i);
+  for (std::size_t i = 0; i < sweep.designs.size(); ++i) {
+    if (sweep.outcomes[i]->failure.empty()) designs.push_back(i);
   }
   if (designs.empty()) {
     throw std::runtime_error(
         fmt::format("every design of the grid failed; the first: {}",
-                    sweep.outcomes().empty() ? "" : sweep.outcomes().front()->failure));
+                    sweep.outcomes.empty() ? "" : sweep.outcomes.front()->failure));
   }
   const auto rank = [&](std::size_t design) {
-    const SweepOutcome& outcome = *sweep.outcomes()[design];
+    const SweepOutcome& outcome = *sweep.outcomes[design];
     return EvaluatedDesign{
         .point = {}, .key = {}, .cost = outcome.cost.mean, .violation = outcome.violation};
   };
@@ -179,28 +161,27 @@ std::vector<std::size_t> best_of(const Sweep& sweep, std::size_t most) {
   return designs;
 }
 
-std::vector<const SweepOutcome*> outcomes_of_points(const SweepTask& task, const Sweep& sweep) {
-  std::vector<const SweepOutcome*> points(task.grid.size(), nullptr);
-  for (std::size_t i = 0; i < sweep.designs().size(); ++i) {
-    for (const std::size_t point : sweep.designs()[i].points) points[point] = &*sweep.outcomes()[i];
+std::vector<const SweepOutcome*> outcomes_of_points(const Sweep& sweep) {
+  std::vector<const SweepOutcome*> points(sweep.task.grid.size(), nullptr);
+  for (std::size_t i = 0; i < sweep.designs.size(); ++i) {
+    for (const std::size_t point : sweep.designs[i].points) points[point] = &*sweep.outcomes[i];
   }
   return points;
 }
 
 std::vector<RankedDesign> ranking_of(const std::vector<std::size_t>& best, const Sweep& sweep,
-                                     const SweepTask& task, RunRecord& record,
                                      const Progress* whole) {
+  const DesignTrial& verification = sweep.task.verification;
   std::vector<RankedDesign> verified;
-  Progress progress = verification_progress(task.verification, best.size(), "", whole);
+  Progress progress = verification_progress(verification, best.size(), "", whole);
   for (std::size_t i = 0; i < best.size(); ++i) {
     const bool is_last = i + 1 == best.size();
     std::optional<TriedDesign> tried =
-        verified_candidate(sweep.designs()[best[i]].design, task.verification, record,
+        verified_candidate(sweep.designs[best[i]].design, verification, sweep.record,
                            interruptible(progress), verified.empty() && is_last);
-    const bool is_whole =
-        !tried || static_cast<int>(tried->costs.size()) == task.verification.screen_count();
-    if (!is_whole || (InterruptWatch::interrupted() && !is_last)) {
-      throw RunInterrupted(fmt::format("in the verification; {}", record.how_to_go_on()));
+    const bool was_ended = tried && !is_whole(*tried, verification);
+    if (was_ended || (InterruptWatch::interrupted() && !is_last)) {
+      throw RunInterrupted(fmt::format("in the verification; {}", sweep.record.how_to_go_on()));
     }
     if (tried) verified.push_back({.candidate = i, .verified = std::move(*tried)});
   }

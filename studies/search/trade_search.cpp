@@ -2,22 +2,12 @@
 #include "studies/search/trade_search.hpp"
 
 #include "model/input_error.hpp"
-#include "objectives/design_comparison.hpp"
 #include "objectives/design_problem.hpp"
-#include "studies/run/interrupt.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/search/design_search.hpp"
 #include "studies/search/search_log.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <stop_token>
 #include <tuple>
-#include <utility>
-
-#include <fmt/format.h>
 
 namespace nlcwfs {
 namespace {
@@ -94,23 +84,18 @@ std::vector<std::optional<double>> reference_of(const Configuration& configurati
                                                 const std::vector<DesignMetric>& objectives,
                                                 const DesignSpace& space,
                                                 const Operation& operation) {
-  std::vector<std::optional<double>> reference;
-  if (!configuration.is_set("trade.reference")) {
-    for (const DesignMetric& objective : objectives) {
-      auto value = worthless_value(objective, space, operation);
-      if (value) value = objective.minimised(*value);
-      reference.push_back(value);
-    }
-    return reference;
-  }
-  const std::vector<double> given = configuration.numbers("trade.reference");
-  if (given.size() != objectives.size()) {
+  const bool is_given = configuration.is_set("trade.reference");
+  const std::vector<double> given =
+      is_given ? configuration.numbers("trade.reference") : std::vector<double>{};
+  if (is_given && given.size() != objectives.size()) {
     throw InputError("trade.reference", configuration.value_text("trade.reference"),
                      fmt::format("{} numbers, one for each of trade.objectives, {}",
                                  objectives.size(), configuration.text("trade.objectives")));
   }
+  std::vector<std::optional<double>> reference;
   for (std::size_t i = 0; i < objectives.size(); ++i) {
-    reference.emplace_back(objectives[i].minimised(given[i]));
+    reference.push_back(is_given ? given[i] : worthless_value(objectives[i], space, operation));
+    if (reference.back()) reference.back() = objectives[i].minimised(*reference.back());
   }
   return reference;
 }
@@ -157,10 +142,6 @@ void hold_against(const std::vector<TradedDesign>& front, TradedDesign& traded) 
 
 }  // namespace
 
-std::size_t TradeResult::standing_count() const {
-  return static_cast<std::size_t>(std::ranges::count_if(front, &TradedDesign::stands));
-}
-
 TradeSearch::TradeSearch(const Configuration& configuration)
     : TrialSetup(configuration),
       space(search_space_of(configuration, telescope, simulated())),
@@ -171,14 +152,11 @@ TradeSearch::TradeSearch(const Configuration& configuration)
       most_verified_(static_cast<std::size_t>(configuration.integer("trade.verified"))) {
   require_variables(space.sub_spaces());
   require_valid_designs(space, trial);
-  require_verifiable_designs(space, verification, fresh);
+  require_verifiable(verification, outstanding_designs(space), fresh);
   const Operation& operation = trial.cost().operation;
   for (const DesignMetric& objective : objectives) objective.validate(operation);
   const SensorDesign configured = trial.checked(design);
   reference_ = reference_of(configuration, objectives, space, operation);
-  if (!screen_source.file.empty()) {
-    notes.emplace_back("the verification is on simulated screens of the configured seeing");
-  }
   if (TrialSetup::options.truth == TruthModel::matched) {
     notes.emplace_back(
         "with simulation.truth = matched all designs share one grid: pupil_pixels and "
@@ -198,22 +176,16 @@ TradeResult TradeSearch::run(RunRecord& record) const {
   const InterruptWatch watch;
   const Stopwatch stopwatch;
   ParetoOptions watched = options;
-  SearchLog log("search", space, telescope, seeing().fried_parameter, watched.evaluation,
-                record.archive(), "then the verification", nullptr, objectives);
-  std::stop_source stop;
-  watched.evaluation.stop = stop.get_token();
-
+  SearchLog log("search", space, *this, watched.evaluation, record, "then the verification",
+                nullptr, objectives);
   const auto first_designs = options.population * static_cast<int>(space.sub_spaces().size());
   std::vector<double> worst(objectives.size(), -std::numeric_limits<double>::infinity());
-  watched.evaluation.observer = [&](const EvaluationRecord& evaluation) {
-    log.add(evaluation);
-    if (evaluation.index <= first_designs && evaluation.failure.empty()) {
-      for (std::size_t i = 0; i < worst.size(); ++i) {
-        worst[i] = std::max(worst[i], evaluation.objectives[i]);
-      }
-    }
-    if (InterruptWatch::interrupted()) stop.request_stop();
-  };
+  watched.evaluation.observer =
+      [&, add = watched.evaluation.observer](const EvaluationRecord& evaluation) {
+        add(evaluation);
+        if (evaluation.index > first_designs || !evaluation.failure.empty()) return;
+        std::ranges::transform(worst, evaluation.objectives, worst.begin(), std::ranges::max);
+      };
   DesignProblem problem(space, trial, objectives, log.interruptible());
   result.search = pareto_search(problem, watched);
   result.search_seconds = stopwatch.seconds();
@@ -254,11 +226,11 @@ void TradeSearch::verify_front(TradeResult& result, RunRecord& record) const {
     }
     TradedDesign traded;
     traded.verified = std::move(*tried);
-    const std::size_t screens = traded.verified.costs.size();
-    result.reconstructions += static_cast<long>(verification.conditions().size() * screens);
-    const bool is_whole = static_cast<int>(screens) == verification.screen_count();
-    result.verification_interrupted = !is_whole;
-    if (!is_whole && !result.front.empty()) return;
+    result.reconstructions +=
+        static_cast<long>(verification.conditions().size() * traded.verified.costs.size());
+    const bool was_ended = !is_whole(traded.verified, verification);
+    result.verification_interrupted = was_ended;
+    if (was_ended && !result.front.empty()) return;
     traded.evaluated = {.point = found.point,
                         .key = found.key,
                         .cost = mean_and_standard_error(traded.verified.costs).mean,
@@ -270,7 +242,7 @@ void TradeSearch::verify_front(TradeResult& result, RunRecord& record) const {
     }
     result.front.push_back(std::move(traded));
     if (!was_interrupted && InterruptWatch::interrupted()) {
-      result.verification_interrupted = !is_whole || result.front.size() < result.chosen_count;
+      result.verification_interrupted = was_ended || result.front.size() < result.chosen_count;
       return;
     }
   }

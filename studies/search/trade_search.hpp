@@ -1,22 +1,11 @@
 // The front of several objectives is searched and verified.
 #pragma once
 
-#include "model/seeing.hpp"
-#include "model/statistics.hpp"
-#include "model/telescope.hpp"
-#include "objectives/design_metric.hpp"
-#include "objectives/design_space.hpp"
-#include "objectives/design_trial.hpp"
 #include "optimizer/pareto_search.hpp"
 #include "studies/run/run_record.hpp"
-#include "studies/settings/configuration.hpp"
 #include "studies/settings/trials.hpp"
 
 #include <cstddef>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace nlcwfs {
 
@@ -62,9 +51,6 @@ struct TradeResult {
   long reconstructions = 0;     ///< the verification included
   double search_seconds = 0.0;  ///< without the verification, s
   std::string table;            ///< CSV of the designs of the search
-
-  /// How many of the verified designs no other betters on fresh screens.
-  std::size_t standing_count() const;
 };
 
 /// A Setup with the search of the sections trade, search and verify, checked as a whole when it is

@@ -2,31 +2,19 @@
 #include "studies/search/verified_ranking.hpp"
 
 #include "model/input_error.hpp"
-#include "objectives/design_space.hpp"
-#include "results/tables/design_summary.hpp"
 #include "results/tables/trial_summary.hpp"
 #include "results/text/design_text.hpp"
 #include "results/text/quantity_text.hpp"
-#include "studies/run/evaluation_log.hpp"
-#include "studies/run/stopwatch.hpp"
 #include "studies/settings/text.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <spdlog/spdlog.h>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace nlcwfs {
 namespace {
-
-/// In a ranking.
-std::string_view word_for(Verdict verdict) {
-  return verdict == Verdict::indistinguishable ? "tied" : word_of(verdict);
-}
 
 /// "-115.4 km, 115.4 km"
 std::string planes_text(const SensorDesign& design) {
@@ -50,6 +38,10 @@ Progress verification_progress(const DesignTrial& verification, std::size_t desi
           "fresh screens", std::move(then), whole};
 }
 
+bool is_whole(const TriedDesign& tried, const DesignTrial& trial) {
+  return static_cast<int>(tried.costs.size()) == trial.screen_count();
+}
+
 void require_verifiable(const DesignTrial& verification, const std::vector<SensorDesign>& designs,
                         const FreshScreens& fresh) {
   try {
@@ -68,9 +60,6 @@ TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verif
       .stage = "verify",
       .design = to_json(design, first.simulation->telescope(), first.fried_parameter).dump(),
       .cost = std::numeric_limits<double>::quiet_NaN(),
-      .failure = {},
-      .seconds = 0.0,
-      .performance = {},
       .key = design_key(design)};
   std::optional<TriedDesign> tried;
   try {
@@ -82,11 +71,11 @@ TriedDesign verified_design(const SensorDesign& design, const DesignTrial& verif
   }
   evaluation.seconds = stopwatch.seconds();
   if (tried) {
-    if (static_cast<int>(tried->costs.size()) < verification.screen_count()) return *tried;
+    if (!is_whole(*tried, verification)) return *tried;
     evaluation.cost = mean_and_standard_error(tried->costs).mean;
     evaluation.performance = to_json(pooled(tried->performances)).dump();
   }
-  archive_and_log(record.archive(), evaluation);
+  record.add(evaluation);
   if (tried) return *tried;
   throw VerificationFailed(
       fmt::format("the design of the planes {} failed on the fresh screens: {}",
@@ -106,8 +95,7 @@ std::optional<TriedDesign> verified_candidate(const SensorDesign& design,
   }
 }
 
-std::vector<RankedDesign> ranked(std::vector<RankedDesign> candidates) {
-  std::vector<RankedDesign> ranking = std::move(candidates);
+std::vector<RankedDesign> ranked(std::vector<RankedDesign> ranking) {
   std::ranges::stable_sort(ranking, {}, [](const RankedDesign& design) {
     return std::pair(design.verified.violation,
                      mean_and_standard_error(design.verified.costs).mean);
@@ -124,7 +112,10 @@ nlohmann::ordered_json to_json(const std::vector<RankedDesign>& ranking,
   for (const RankedDesign& design : ranking) {
     nlohmann::ordered_json json = to_json(design.verified, verification);
     json["cost_above_best"] = to_json(cost_above_best(design));
-    json["verdict"] = array.empty() ? "best" : word_for(design.against_best.verdict);
+    const Verdict verdict = design.against_best.verdict;
+    json["verdict"] = array.empty()                           ? "best"
+                      : verdict == Verdict::indistinguishable ? "tied"
+                                                              : word_of(verdict);
     array.push_back(std::move(json));
   }
   return array;

@@ -2,20 +2,12 @@
 #pragma once
 
 #include "objectives/design_comparison.hpp"
-#include "objectives/design_trial.hpp"
 #include "studies/run/progress.hpp"
 #include "studies/run/run_record.hpp"
 #include "studies/settings/trials.hpp"
 
 #include <cstddef>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace nlcwfs {
 
@@ -23,6 +15,9 @@ namespace nlcwfs {
 /// @param then, whole  see Progress
 Progress verification_progress(const DesignTrial& verification, std::size_t designs,
                                std::string then = {}, const Progress* whole = nullptr);
+
+/// Whether a design was tried on all screens of a trial: no watch ended it early.
+bool is_whole(const TriedDesign& tried, const DesignTrial& trial);
 
 /// Checks that designs can be verified.
 /// @throws InputError naming verify.truth_factor

@@ -231,7 +231,10 @@ DesignTrial TrialSetup::make_scan(bool pixels_vary) const {
                         search_precision, cost(pixels_vary));
 }
 
-DesignTrial TrialSetup::make_verification(bool pixels_vary) const {
+DesignTrial TrialSetup::make_verification(bool pixels_vary) {
+  if (!screen_source.file.empty()) {
+    notes.emplace_back("the verification is on simulated screens of the configured seeing");
+  }
   return verification_trial_of(*this, fresh, cost(pixels_vary));
 }
 

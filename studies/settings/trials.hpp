@@ -79,8 +79,8 @@ struct TrialSetup : Setup {
   DesignTrial make_trial(bool pixels_vary);
   /// On as many fresh screens, but on 8 at least: fewer cannot tell designs apart.
   DesignTrial make_scan(bool pixels_vary) const;
-  /// See verification_trial_of.
-  DesignTrial make_verification(bool pixels_vary) const;
+  /// See verification_trial_of. A note says so where the search's screens are from a file.
+  DesignTrial make_verification(bool pixels_vary);
 
   ScreenSource screen_source;  ///< of the search
   FreshScreens fresh;          ///< of the verification
