@@ -1,12 +1,15 @@
-// Several objectives are minimised at once, with pagmo.
+// Several objectives are minimised at once.
 #include "optimizer/pareto_search.hpp"
 
 #include "optimizer/latin_hypercube.hpp"
+#include "optimizer/pareto_algorithms.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
 #include <map>
+#include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -14,13 +17,6 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <pagmo/algorithm.hpp>
-#include <pagmo/algorithms/nsga2.hpp>
-#include <pagmo/algorithms/nspso.hpp>
-#include <pagmo/batch_evaluators/member_bfe.hpp>
-#include <pagmo/bfe.hpp>
-#include <pagmo/population.hpp>
-#include <pagmo/problem.hpp>
 #include <pagmo/utils/hypervolume.hpp>
 #include <pagmo/utils/multi_objective.hpp>
 
@@ -36,8 +32,8 @@ double penalty_of_violation(double violation) {
 }
 constexpr double penalty_of_failure = 1e102;
 
-std::vector<double> objectives_for_pagmo(const std::optional<EvaluatedDesign>& design,
-                                         std::size_t count) {
+std::vector<double> compared_objectives(const std::optional<EvaluatedDesign>& design,
+                                        std::size_t count) {
   std::vector<double> penalties(count, penalty_of_failure);
   if (!design) return penalties;
   if (design->violation > 0.0) {
@@ -48,103 +44,46 @@ std::vector<double> objectives_for_pagmo(const std::optional<EvaluatedDesign>& d
   return design->objectives;
 }
 
-/// A sub-space as pagmo sees it: the continuous variables come first, and those that an algorithm
-/// knows as whole numbers after them.
-struct PagmoProblem {
-  Evaluator* evaluator = nullptr;
-  int sub_space = 0;
-  std::size_t objective_count = 2;
-  bool rounds = false;  ///< the algorithm itself knows whole numbers
+/// A sub-space as the algorithms see it: the continuous variables come first, and those that an
+/// algorithm knows as whole numbers after them.
+class SubSpaceCoding {
+ public:
+  /// @param rounds  whether the algorithm itself knows whole numbers
+  SubSpaceCoding(const SubSpace& space, int sub_space, bool rounds) : sub_space_(sub_space) {
+    const std::vector<Variable>& variables = space.variables;
+    order_.resize(variables.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::ranges::stable_partition(order_,
+                                  [&](std::size_t i) { return variables[i].is_continuous(); });
+    for (const std::size_t i : order_) {
+      const bool is_whole = !variables[i].is_continuous();
+      // Rounded, the values at the ends then have as wide a range as the others.
+      const double margin = is_whole && !rounds ? 0.499 : 0.0;
+      space_.bounds.first.push_back(variables[i].lower - margin);
+      space_.bounds.second.push_back(variables[i].upper + margin);
+      if (is_whole && rounds) ++space_.whole_numbers;
+    }
+  }
 
-  const std::vector<Variable>& variables() const {
-    return evaluator->sub_spaces()[static_cast<std::size_t>(sub_space)].variables;
-  }
-  /// pagmo's order of the variables.
-  std::vector<Eigen::Index> order() const {
-    std::vector<Eigen::Index> order(variables().size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
-    std::stable_partition(order.begin(), order.end(), [&](Eigen::Index i) {
-      return variables()[static_cast<std::size_t>(i)].is_continuous();
-    });
-    return order;
-  }
-  SearchPoint to_point(const double* x) const {
-    SearchPoint point{sub_space, Eigen::VectorXd(variables().size())};
-    for (const Eigen::Index i : order()) point.x[i] = *x++;
+  const GenerationSpace& space() const { return space_; }
+
+  SearchPoint to_point(const std::vector<double>& x) const {
+    SearchPoint point{sub_space_, Eigen::VectorXd(x.size())};
+    for (std::size_t i = 0; i < x.size(); ++i) point.x[Eigen::Index(order_[i])] = x[i];
     return point;
   }
-  pagmo::vector_double from_point(const SearchPoint& point) const {
-    pagmo::vector_double x;
-    for (const Eigen::Index i : order()) x.push_back(point.x[i]);
+
+  std::vector<double> from_point(const SearchPoint& point) const {
+    std::vector<double> x;
+    for (const std::size_t i : order_) x.push_back(point.x[Eigen::Index(i)]);
     return x;
   }
 
-  std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
-    std::pair<pagmo::vector_double, pagmo::vector_double> bounds;
-    for (const Eigen::Index i : order()) {
-      const Variable& variable = variables()[static_cast<std::size_t>(i)];
-      // Rounded, the values at the ends then have as wide a range as the others.
-      const double margin = variable.is_continuous() || rounds ? 0.0 : 0.499;
-      bounds.first.push_back(variable.lower - margin);
-      bounds.second.push_back(variable.upper + margin);
-    }
-    return bounds;
-  }
-  pagmo::vector_double::size_type get_nobj() const { return objective_count; }
-  pagmo::vector_double::size_type get_nix() const {
-    return rounds ? static_cast<std::size_t>(std::ranges::count_if(
-                        variables(),
-                        [](const Variable& variable) { return !variable.is_continuous(); }))
-                  : 0;
-  }
-  pagmo::vector_double fitness(const pagmo::vector_double& x) const { return batch_fitness(x); }
-  pagmo::vector_double batch_fitness(const pagmo::vector_double& xs) const {
-    std::vector<SearchPoint> points;
-    for (std::size_t i = 0; i < xs.size(); i += variables().size()) {
-      points.push_back(to_point(&xs[i]));
-    }
-    evaluator->evaluate(points);
-    pagmo::vector_double all;
-    for (const SearchPoint& point : points) {
-      const auto objectives = objectives_for_pagmo(evaluator->known(point), objective_count);
-      all.insert(all.end(), objectives.begin(), objectives.end());
-    }
-    return all;
-  }
+ private:
+  int sub_space_;
+  std::vector<std::size_t> order_;
+  GenerationSpace space_;
 };
-
-// Measured by the hypervolume with 200 and 600 evaluations on ZDT1 and ZDT2 (Zitzler, Deb & Thiele
-// 2000) and on mixed problems of two and three objectives: nsga2 is ahead on mixed ones with 600,
-// nspso on continuous ones and with 200. pagmo's MACO is behind on both, and refuses fronts of
-// equal penalties; its MOEA/D knows neither whole numbers nor batches.
-pagmo::algorithm create(const std::string& name, std::size_t variable_count, unsigned seed) {
-  constexpr unsigned one_generation = 1;
-  const pagmo::bfe batches{pagmo::member_bfe{}};
-  if (name == "nsga2") {
-    // One mutation per design on average, as in the paper. pagmo's rate of 0.01 suits long runs of
-    // many variables; here it costs up to 80 % of the hypervolume.
-    constexpr double crossover_probability = 0.95;
-    constexpr double crossover_index = 10.0;
-    constexpr double mutation_index = 20.0;
-    pagmo::nsga2 algorithm(one_generation, crossover_probability, crossover_index,
-                           1.0 / static_cast<double>(variable_count), mutation_index, seed);
-    algorithm.set_bfe(batches);
-    return pagmo::algorithm(algorithm);
-  }
-  // pagmo's defaults but for the niches: by crowding distance it reads beyond a front of one
-  // design.
-  constexpr double inertia = 0.6;
-  constexpr double own_attraction = 2.0;
-  constexpr double leader_attraction = 2.0;
-  constexpr double velocity_scale = 1.0;
-  constexpr double largest_velocity = 0.5;
-  constexpr unsigned leaders_percent = 60;
-  constexpr bool goes_on = true;
-  pagmo::nspso algorithm(one_generation, inertia, own_attraction, leader_attraction, velocity_scale,
-                         largest_velocity, leaders_percent, "niche count", goes_on, seed);
-  algorithm.set_bfe(batches);
-  return pagmo::algorithm(algorithm);
-}
 
 /// The designs of a front so far.
 class Front {
@@ -172,8 +111,8 @@ class Front {
 
 /// One sub-space's search.
 struct Island {
-  pagmo::algorithm algorithm;
-  pagmo::population population;
+  SubSpaceCoding coding;
+  std::unique_ptr<ParetoAlgorithm> algorithm;
   int known_generations = 0;
 };
 
@@ -204,7 +143,12 @@ class ParetoSearch {
     while (!islands.empty()) {
       for (Island& island : islands) {
         const int before = evaluator_.evaluations();
-        island.population = island.algorithm.evolve(island.population);
+        std::vector<SearchPoint> points;
+        for (const auto& x : island.algorithm->propose()) {
+          points.push_back(island.coding.to_point(x));
+        }
+        evaluator_.evaluate(points);
+        island.algorithm->accept(generation(island.coding, points));
         island.known_generations =
             evaluator_.evaluations() == before ? island.known_generations + 1 : 0;
       }
@@ -226,17 +170,25 @@ class ParetoSearch {
     return points;
   }
 
-  Island island(int sub_space, const std::vector<SearchPoint>& points) {
-    const auto seed = static_cast<unsigned>(generator_());
-    const PagmoProblem problem{&evaluator_, sub_space, evaluator_.best()->objectives.size(),
-                               options_.algorithm == "nsga2"};
-    assert(problem.objective_count >= 2);
-    pagmo::population population(pagmo::problem(problem), 0u, seed);
+  /// Evaluated designs as the algorithms see them.
+  Generation generation(const SubSpaceCoding& coding, const std::vector<SearchPoint>& points) {
+    const std::size_t objectives = evaluator_.best()->objectives.size();
+    assert(objectives >= 2);
+    Generation generation;
     for (const SearchPoint& point : points) {
-      population.push_back(problem.from_point(point),
-                           objectives_for_pagmo(evaluator_.known(point), problem.objective_count));
+      generation.x.push_back(coding.from_point(point));
+      generation.objectives.push_back(compared_objectives(evaluator_.known(point), objectives));
     }
-    return {create(options_.algorithm, problem.variables().size(), seed), std::move(population), 0};
+    return generation;
+  }
+
+  Island island(int sub_space, const std::vector<SearchPoint>& points) {
+    SubSpaceCoding coding(evaluator_.sub_spaces()[static_cast<std::size_t>(sub_space)], sub_space,
+                          options_.algorithm == "nsga2");
+    auto algorithm =
+        pareto_algorithm(options_.algorithm, coding.space(), generation(coding, points),
+                         static_cast<unsigned>(generator_()));
+    return {std::move(coding), std::move(algorithm), 0};
   }
 
   Evaluator& evaluator_;
@@ -245,8 +197,6 @@ class ParetoSearch {
 };
 
 }  // namespace
-
-std::vector<std::string_view> pareto_algorithms() { return {"nsga2", "nspso"}; }
 
 ParetoResult pareto_search(Problem& problem, const ParetoOptions& options) {
   const std::vector<std::string_view> names = pareto_algorithms();

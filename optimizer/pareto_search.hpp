@@ -1,20 +1,15 @@
-// Several objectives are minimised at once, with pagmo.
+// Several objectives are minimised at once.
 #pragma once
 
 #include "optimizer/evaluator.hpp"
+#include "optimizer/pareto_algorithms.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nlcwfs {
-
-/// The names of the algorithms for several objectives:
-/// `nsga2` (non-dominated sorting genetic algorithm, Deb, Pratap, Agarwal & Meyarivan 2002) and
-/// `nspso` (non-dominated sorting particle swarm, Li 2003; discrete variables are rounded).
-std::vector<std::string_view> pareto_algorithms();
 
 /// What to search with, and from where.
 struct ParetoOptions {

@@ -1,4 +1,4 @@
-// Tests: Several objectives are minimised at once, with pagmo.
+// Tests: Several objectives are minimised at once.
 #include "optimizer/pareto_search.hpp"
 
 #include "test_problems.hpp"
