@@ -34,7 +34,7 @@ struct SimulationOptions {
 
 /// What of the program decides on the result of a simulation, beside its input: raised by every
 /// change after which equal input may give other bits.
-constexpr int model_version = 1;
+constexpr int model_version = 2;
 
 /// Asked after each screen that is done, by the thread that did it and by several at once: whether
 /// another may be started. Screens are started in order, so those that are done are the first ones;

@@ -111,12 +111,14 @@ WavefrontMetrics measure_wavefront(const Field<double>& field, const Image<doubl
                                    const PupilMask& truth_mask, double wavelength) {
   const Image<double> sampled_truth = truth_on_samples(truth, mask.rows());
   const Field<double> true_field = pupil_field(sampled_truth, mask);
-  const Image<double> full_resolution =
-      resample_over_mask(unwrapped, mask, static_cast<int>(truth.rows()));
+  const Image<double> representable =
+      resample_over_mask(sampled_truth, mask, static_cast<int>(truth.rows()));
   const double length_per_radian = wavelength / (2.0 * std::numbers::pi);
-  return {.residual_wfe = length_per_radian * piston_free_rms(unwrapped - sampled_truth, mask),
+  const double residual = length_per_radian * piston_free_rms(unwrapped - sampled_truth, mask);
+  const double unresolved = length_per_radian * piston_free_rms(representable - truth, truth_mask);
+  return {.residual_wfe = residual,
           .wrapped_wfe = length_per_radian * wrapped_phase_rms(field, true_field, mask),
-          .total_wfe = length_per_radian * piston_free_rms(full_resolution - truth, truth_mask),
+          .total_wfe = std::hypot(residual, unresolved),
           .field_strehl = field_estimated_strehl(field, true_field, mask),
           .recovered_share = recovered_share(unwrapped, sampled_truth, mask)};
 }

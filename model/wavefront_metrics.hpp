@@ -10,8 +10,10 @@ namespace nlcwfs {
 struct WavefrontMetrics {
   double residual_wfe = 0.0;  ///< RMS over the pupil of (unwrapped - true phase), piston removed
   double wrapped_wfe = 0.0;   ///< the same of arg(E_rec conj(E_true)): blind to 2 pi errors
-  double total_wfe = 0.0;  ///< residual at the truth's full resolution: what the reconstruction's
-                           ///< samples cannot resolve counts too
+  /// sqrt(residual^2 + unresolved^2), so never below the residual; unresolved: RMS over the pupil
+  /// of what is missing of the truth where the reconstruction's samples hold its means and are
+  /// interpolated linearly. (Interpolating the reconstruction itself would smooth its noise away.)
+  double total_wfe = 0.0;
   double field_strehl = 0.0;     ///< field-estimated Strehl ratio, see field_estimated_strehl()
   double recovered_share = 0.0;  ///< see recovered_share()
 };

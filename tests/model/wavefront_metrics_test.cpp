@@ -198,6 +198,21 @@ TEST(WavefrontMetrics, TotalErrorOfPerfectCoarseSamplesIsWhatTheyCannotResolve) 
   }
 }
 
+TEST(WavefrontMetrics, TotalErrorIsNeverBelowTheResidual) {
+  // Noise of single samples, which an interpolation to the truth's would smooth by a third.
+  const PhaseScreen truth = defocus(128, 3.0) + tilt(128, 1.0);
+  for (const int samples : {16, 32, 64, 128, 256}) {
+    const PhaseScreen sampled_truth = truth_on_samples(truth, samples);
+    const WavefrontMetrics noisy =
+        metrics_of(sampled_truth + random_phase(samples, 1.0), truth, 0.2);
+    const WavefrontMetrics exact = metrics_of(sampled_truth, truth, 0.2);
+    EXPECT_GE(noisy.total_wfe, noisy.residual_wfe) << samples;
+    EXPECT_NEAR(noisy.total_wfe, std::hypot(noisy.residual_wfe, exact.total_wfe),
+                1e-12 * wavelength)
+        << samples;
+  }
+}
+
 TEST(WavefrontMetrics, TotalErrorOfATiltIsTheRimsAlone) {
   // Half a pixel around the rim is extrapolated by its nearest samples.
   for (const int coarse : {16, 32, 64}) {
