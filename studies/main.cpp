@@ -88,6 +88,8 @@ void run(int argc, const char* const* argv, const nlcwfs::Ranks& ranks) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using nlcwfs::print_error;
+  nlcwfs::occupy_standard_streams();
   try {
     nlcwfs::Ranks ranks;
     ranks.rank() == 0 ? run(argc, argv, ranks) : ranks.serve();
@@ -97,18 +99,18 @@ int main(int argc, char** argv) {
     return done;
   } catch (const nlcwfs::RunInterrupted& what) {
     std::fflush(stdout);
-    if (*what.what() != 0) fmt::print(stderr, "nlcwfs: interrupted: {}\n", what.what());
+    if (*what.what() != 0) print_error(fmt::format("nlcwfs: interrupted: {}\n", what.what()));
     return interrupted;
   } catch (const nlcwfs::InputError& error) {
-    fmt::print(stderr, "nlcwfs: {}\n", nlcwfs::without_controls(error.what()));
+    print_error(fmt::format("nlcwfs: {}\n", nlcwfs::without_controls(error.what())));
     return bad_input;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "nlcwfs: failed: there is not enough memory; ask for fewer screens, or "
-               "smaller windows of fewer samples\n");
+    print_error(
+        "nlcwfs: failed: there is not enough memory; ask for fewer screens, or smaller windows of "
+        "fewer samples\n");
     return run_failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "nlcwfs: failed: {}\n", nlcwfs::without_controls(error.what()));
+    print_error(fmt::format("nlcwfs: failed: {}\n", nlcwfs::without_controls(error.what())));
     return run_failed;
   }
 }

@@ -74,7 +74,7 @@ class Nap {
 
 [[noreturn]] void end_all_ranks(const std::string& message) {
   std::fflush(stdout);
-  fmt::print(stderr, "nlcwfs: failed: {}\n", one_line(message));
+  std::fputs(fmt::format("nlcwfs: failed: {}\n", one_line(message)).c_str(), stderr);
   std::fflush(stderr);
   MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
   std::abort();

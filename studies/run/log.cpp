@@ -2,8 +2,10 @@
 #include "studies/run/log.hpp"
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <fcntl.h>
 #include <memory>
 #include <mutex>
 #include <spdlog/sinks/base_sink.h>
@@ -71,6 +73,20 @@ class StandardErrorSink final : public spdlog::sinks::base_sink<std::mutex> {
 };
 
 }  // namespace
+
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest number that is free is its own; the wrong way, so that its use still fails.
+    if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
+      (void)open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    }
+  }
+}
+
+void print_error(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
 
 void start_log(LogLevel level) {
   const auto sink = std::make_shared<StandardErrorSink>();

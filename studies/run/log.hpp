@@ -13,6 +13,13 @@ enum class LogLevel {
   debug     ///< each stage and evaluation when it is done, with time, cost and duration
 };
 
+/// Holds the numbers of the standard streams that the program was begun without: a file that it
+/// opens would get them, and what is printed would go into it.
+void occupy_standard_streams();
+
+/// Writes to standard error. Where that cannot be written to, nobody can be told.
+void print_error(std::string_view text) noexcept;
+
 /// Sends what is logged with spdlog to standard error, with the time, and there the line of
 /// progress: on a terminal it is written over and over and moves out of the way of other lines;
 /// elsewhere one a minute is written. Call it once, before anything is logged.

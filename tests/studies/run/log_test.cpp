@@ -49,6 +49,31 @@ TEST_F(Log, ShortRunsHaveNoProgressWhereThereIsNoTerminal) {
   }
 }
 
+/// @return the exit code, -1 where a signal ended it
+int exit_code_of(const std::string& words_and_streams) {
+  const int status = std::system((program_path() + ' ' + words_and_streams).c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST_F(Log, StreamsThatCannotBeWrittenToChangeNoExitCode) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  for (const std::string error : {"2> /dev/full", "2>&-", "<&- 2>&-"}) {
+    EXPECT_EQ(exit_code_of("--foo > output.txt " + error), 2) << error;
+    EXPECT_EQ(exit_code_of("evaluate --resume nowhere > output.txt " + error), 2) << error;
+    EXPECT_EQ(exit_code_of("--version > output.txt " + error), 0) << error;
+    EXPECT_EQ(exit_code_of("--version > /dev/full " + error), 1) << error;
+  }
+  EXPECT_EQ(exit_code_of("--version <&- >&- 2>&-"), 1);
+}
+
+TEST_F(Log, WhatIsPrintedGoesIntoNoFileOfTheRun) {
+  done("evaluate", "whole");
+  EXPECT_EQ(exit_code_of("evaluate --config tiny.cfg --output run --log-level debug <&- >&- 2>&-"),
+            1);
+  EXPECT_EQ(contents("run/screens.csv").substr(0, 20), contents("whole/screens.csv").substr(0, 20));
+  EXPECT_EQ(repeatable_summary("run")["design"], repeatable_summary("whole")["design"]);
+}
+
 TEST_F(Log, ProgressIsALineOfTheTerminalThatGoesAgain) {
   if (std::system("script --version > /dev/null 2>&1") != 0) {
     GTEST_SKIP() << "there is no script(1) to make a terminal with";
