@@ -15,11 +15,12 @@ Bounds above(double least) { return {.least = least, .least_included = false}; }
 Bounds at_least(double least) { return {.least = least}; }
 Bounds from_to(double least, double greatest) { return {.least = least, .greatest = greatest}; }
 
-/// Of a telescope, and of light that it looks at: a number without its unit is beyond.
-constexpr Bounds diameter_bounds{.least = 0.0, .greatest = 1e3, .least_included = false};
-constexpr Bounds bench_beam_bounds{.least = 0.0, .greatest = 1.0, .least_included = false};
-constexpr Bounds wavelength_bounds{.least = 0.0, .greatest = 1e-3, .least_included = false};
-constexpr Bounds path_bounds = wavelength_bounds;
+/// Of a telescope, of light and of air that it looks through: a number without its unit is beyond.
+constexpr Bounds diameter_bounds{.least = 1e-4, .greatest = 1e3};
+constexpr Bounds bench_beam_bounds{.least = 1e-6, .greatest = 1.0};
+constexpr Bounds wavelength_bounds{.least = 1e-9, .greatest = 1e-3};
+constexpr Bounds path_bounds{.least = 0.0, .greatest = 1e-3, .least_included = false};
+constexpr Bounds d_over_r0_bounds{.least = 1e-3, .greatest = 1e4};
 
 /// The relaxation beta diverges at both ends.
 constexpr Bounds relaxation_bounds{
@@ -142,7 +143,7 @@ std::vector<ConfigurationKey> make_keys() {
            "Pupil diameter over Fried parameter at telescope.wavelength. One measure of "
            "the seeing: set this, fried_parameter or fwhm. With several values, designs are "
            "tried in each, with each of the lights of the section detector.",
-       .bounds = {.least = 0, .greatest = 1e4, .least_included = false},
+       .bounds = d_over_r0_bounds,
        .example = "4 or 4,8"},
       {.name = "seeing.fried_parameter",
        .kind = Kind::length_list,
@@ -408,7 +409,7 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::length,
        .default_text = "10nm",
        .description = "Wavefront error that costs 1.",
-       .bounds = above(0)},
+       .bounds = at_least(1e-12)},
       {.name = "objective.loop_weight",
        .kind = Kind::number,
        .default_text = "0.1",
@@ -705,7 +706,7 @@ std::vector<ConfigurationKey> make_keys() {
        .kind = Kind::number_list,
        .default_text = "3,4,5,6,8,10",
        .description = "Seeings at which law searches designs, to fit the scaling law to them.",
-       .bounds = {.least = 0, .greatest = 1e4, .least_included = false}},
+       .bounds = d_over_r0_bounds},
 
       {.name = "export.formats",
        .kind = Kind::text,

@@ -50,7 +50,7 @@ TEST_F(BadInput, OfTheCommandLine) {
   expect_refused("evaluate", {"--threads", "-1"}, "--threads = -1", "from 0 (all cores)");
   expect_refused("evaluate", {"--preset", "papr"}, "--preset = papr", "the only one is paper");
   expect_refused("evaluate", {"--source.bands", "600nm:500nm"}, "source.bands = 600nm:500nm",
-                 "SHORTEST:LONGEST above 0");
+                 "SHORTEST:LONGEST from 1e-09 m to 0.001 m");
   expect_refused("evaluate", {"--source.bands", "500nm:600nm,600nm:700nm"},
                  "source.bands = 500nm:600nm,600nm:700nm", "one for each of the 4 planes");
   expect_refused("optimize", {"--source.division", "split"}, "source.division = split",
@@ -84,15 +84,20 @@ TEST_F(BadInput, OfAConfigurationFile) {
 
 TEST_F(BadInput, OfSingleValues) {
   expect_refused("evaluate", {"--telescope.diameter", "half a metre"},
-                 "telescope.diameter = half a metre", "a length above 0");
+                 "telescope.diameter = half a metre", "a length from 0.0001 m to 1000 m");
   expect_refused("evaluate", {"--telescope.diameter", "-1"}, "telescope.diameter = -1",
-                 "a length above 0");
+                 "a length from 0.0001 m to 1000 m");
   expect_refused("evaluate", {"--telescope.wavelength", "532parsec"},
                  "telescope.wavelength = 532parsec", "in nm, um, mm, cm, m or km");
   expect_refused("evaluate", {"--telescope.wavelength", "850"}, "telescope.wavelength = 850",
-                 "a length above 0 and at most 0.001 m in nm, um, mm, cm, m or km, such as 532nm");
+                 "a length from 1e-09 m to 0.001 m in nm, um, mm, cm, m or km, such as 532nm");
   expect_refused("evaluate", {"--telescope.diameter", "8200"}, "telescope.diameter = 8200",
-                 "a length above 0 and at most 1000 m");
+                 "a length from 0.0001 m to 1000 m");
+  for (const std::string key :
+       {"telescope.diameter", "telescope.wavelength", "telescope.relay_beam_diameter",
+        "seeing.d_over_r0", "seeing.fried_parameter", "seeing.fwhm", "objective.wfe_scale"}) {
+    expect_refused("evaluate", {"--" + key, "1e-300"}, key + " = 1e-300", "");
+  }
   expect_refused("evaluate", {"--screens.count", "0"}, "screens.count = 0", "from 1 to");
   expect_refused("evaluate", {"--screens.count", "2.5"}, "screens.count = 2.5", "a whole number");
   expect_refused("evaluate", {"--seeing.d_over_r0", "nan"}, "seeing.d_over_r0 = nan", "a number");
@@ -146,7 +151,7 @@ TEST_F(BadInput, OfValuesThatDoNotGoTogether) {
   expect_refused("evaluate", {"--reconstruction.tolerance", "1"}, "reconstruction.tolerance = 1",
                  "0.001 m");
   expect_refused("scale", {"--scale.relay_beam_diameter", "20"}, "scale.relay_beam_diameter = 20",
-                 "at most 1 m");
+                 "from 1e-06 m to 1 m");
   expect_refused("optimize", {"--search.order", "12"}, "search.order = 12",
                  "an order of 4 planes, see search.plane_count");
   expect_refused("advise", {"--seeing.fried_parameter", "12"}, "seeing.fried_parameter = 12",

@@ -289,7 +289,7 @@ TEST_F(CommandLineTest, ThreadsAreAWholeNumber) {
 
 TEST_F(CommandLineTest, PassesOnWhatTheConfigurationRefuses) {
   EXPECT_THAT(parse_message({"evaluate", "--telescope.diameter", "5parsec"}),
-              AllOf(StartsWith("telescope.diameter = 5parsec: a length above 0"),
+              AllOf(StartsWith("telescope.diameter = 5parsec: a length from 0.0001 m"),
                     EndsWith("(on the command line)")));
   EXPECT_EQ(parse_message({"evaluate", "--preset", "nature"}),
             "--preset = nature: the only one is paper");

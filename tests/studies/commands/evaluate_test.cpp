@@ -117,5 +117,21 @@ TEST_F(Evaluate, ThePapersPresetRunsOnItsMatchedTruth) {
   }
 }
 
+TEST_F(Evaluate, HasNumbersAtTheEndsOfWhatIsAllowed) {
+  const std::vector<Arguments> ends{
+      {"--telescope.diameter", "0.1mm"},  {"--telescope.diameter", "1km"},
+      {"--telescope.wavelength", "1nm"},  {"--telescope.wavelength", "1mm"},
+      {"--seeing.d_over_r0", "1e-3"},     {"--telescope.relay_beam_diameter", "1um"},
+
+      {"--objective.wfe_scale", "1e-12"}, {"--sensor.planes", "1e-300,-1e-300"}};
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const std::string folder = fmt::format("run-{}", i);
+    EXPECT_THAT(done("evaluate", folder, ends[i]).output,
+                Not(testing::ContainsRegex("[ +-](nan|inf)[ \n]")))
+        << ends[i][0] << ' ' << ends[i][1];
+    EXPECT_TRUE(summary(folder)["design"]["performance"]["residual_wfe_nm"]["mean"].is_number());
+  }
+}
+
 }  // namespace
 }  // namespace nlcwfs

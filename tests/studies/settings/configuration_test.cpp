@@ -126,7 +126,7 @@ TEST_F(ConfigurationTest, ReturnsWhatWasSetAndWhoSetIt) {
 
 TEST_F(ConfigurationTest, SaysWhatIsAllowedInOneLine) {
   EXPECT_EQ(set_message("telescope.diameter", "-1"),
-            "telescope.diameter = -1: a length above 0 and at most 1000 m in nm, um, mm, cm, m or "
+            "telescope.diameter = -1: a length from 0.0001 m to 1000 m in nm, um, mm, cm, m or "
             "km, such as 0.5m (on "
             "the command line)");
   EXPECT_EQ(set_message("reconstruction.stopping", "never"),
@@ -347,9 +347,8 @@ TEST_F(ConfigurationTest, ADumpDocumentsEveryKey) {
   }
   EXPECT_THAT(
       dump,
-      HasSubstr(
-          "# Unit: m. Allowed: a length above 0 and at most 0.001 m in nm, um, mm, cm, m or km, "
-          "such as 532nm. Default: 532nm.\nwavelength = 532nm\n"));
+      HasSubstr("# Unit: m. Allowed: a length from 1e-09 m to 0.001 m in nm, um, mm, cm, m or km, "
+                "such as 532nm. Default: 532nm.\nwavelength = 532nm\n"));
 }
 
 }  // namespace
