@@ -3,7 +3,6 @@
 
 #include "model/grid_width.hpp"
 #include "model/input_error.hpp"
-#include "model/pupil.hpp"
 
 #include <cmath>
 
@@ -25,42 +24,28 @@ double Detector::photons_per_frame() const {
 }
 
 void Detector::validate() const {
-  if (pupil_pixels < 4 || pupil_pixels > max_grid_width || pupil_pixels % 2 != 0) {
-    throw InputError("detector.pupil_pixels", pupil_pixels,
-                     fmt::format("an even number from 4 to {}", max_grid_width));
-  }
+  require(pupil_pixels >= 4 && pupil_pixels <= max_grid_width && pupil_pixels % 2 == 0,
+          "detector.pupil_pixels", pupil_pixels,
+          fmt::format("an even number from 4 to {}", max_grid_width));
   validate_grid_window("detector.window", window, "detector.pupil_pixels", pupil_pixels);
-  if (!(photons >= 0.0 && photons <= max_photons)) {
-    throw InputError("detector.photons", photons,
-                     fmt::format("from 0 (= no photon noise) to {:g}", max_photons));
-  }
-  if (!(photon_rate >= 0.0) || !std::isfinite(photon_rate)) {
-    throw InputError("detector.photon_rate", photon_rate, "at least 0 photons per second");
-  }
-  if (!(exposure >= 0.0) || !std::isfinite(exposure)) {
-    throw InputError("detector.exposure", exposure, "a time of at least 0, such as 1ms");
-  }
-  if (photon_rate > 0.0 && photons > 0.0) {
-    throw InputError("detector.photon_rate", photon_rate,
-                     fmt::format("set only one of it and detector.photons, which is {}", photons));
-  }
-  if (photon_rate > 0.0 && exposure == 0.0) {
-    throw InputError("detector.photon_rate", photon_rate,
-                     "needs detector.exposure above 0, such as 1ms");
-  }
-  if (!(photons_per_frame() <= max_photons)) {
-    throw InputError("detector.photon_rate", photon_rate,
-                     fmt::format("at most {:g} photons in detector.exposure, which is {} s",
-                                 max_photons, exposure));
-  }
-  if (!(read_noise >= 0.0) || !std::isfinite(read_noise)) {
-    throw InputError("detector.read_noise", read_noise, "at least 0 electrons");
-  }
-  if (read_noise > 0.0 && photons_per_frame() == 0.0) {
-    throw InputError("detector.read_noise", read_noise,
-                     "needs detector.photons or detector.photon_rate above 0, which say how many "
-                     "electrons the light is");
-  }
+  require(photons >= 0.0 && photons <= max_photons, "detector.photons", photons,
+          fmt::format("from 0 (= no photon noise) to {:g}", max_photons));
+  require(photon_rate >= 0.0 && std::isfinite(photon_rate), "detector.photon_rate", photon_rate,
+          "at least 0 photons per second");
+  require(exposure >= 0.0 && std::isfinite(exposure), "detector.exposure", exposure,
+          "a time of at least 0, such as 1ms");
+  require(photon_rate == 0.0 || photons == 0.0, "detector.photon_rate", photon_rate,
+          fmt::format("set only one of it and detector.photons, which is {}", photons));
+  require(photon_rate == 0.0 || exposure > 0.0, "detector.photon_rate", photon_rate,
+          "needs detector.exposure above 0, such as 1ms");
+  require(photons_per_frame() <= max_photons, "detector.photon_rate", photon_rate,
+          fmt::format("at most {:g} photons in detector.exposure, which is {} s", max_photons,
+                      exposure));
+  require(read_noise >= 0.0 && std::isfinite(read_noise), "detector.read_noise", read_noise,
+          "at least 0 electrons");
+  require(read_noise == 0.0 || photons_per_frame() > 0.0, "detector.read_noise", read_noise,
+          "needs detector.photons or detector.photon_rate above 0, which say how many "
+          "electrons the light is");
 }
 
 Image<double> integrate_pixels(const Eigen::Ref<const Field<double>>& field,

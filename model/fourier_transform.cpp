@@ -1,9 +1,7 @@
 // Fourier transforms of lines and squares, through FFTW.
 #include "model/fourier_transform.hpp"
 
-#include <cassert>
 #include <mutex>
-#include <type_traits>
 
 #include <fftw3.h>
 
@@ -23,22 +21,18 @@ template <>
 struct Fftw<double> {
   using Plan = fftw_plan;
   using Complex = fftw_complex;
-  static Plan plan(int length, Complex* in, Complex* out, int sign) {
-    return fftw_plan_dft_1d(length, in, out, sign, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
-  }
-  static void execute(Plan plan, Complex* in, Complex* out) { fftw_execute_dft(plan, in, out); }
-  static void destroy(Plan plan) { fftw_destroy_plan(plan); }
+  static constexpr auto plan = fftw_plan_dft_1d;
+  static constexpr auto execute = fftw_execute_dft;
+  static constexpr auto destroy = fftw_destroy_plan;
 };
 
 template <>
 struct Fftw<float> {
   using Plan = fftwf_plan;
   using Complex = fftwf_complex;
-  static Plan plan(int length, Complex* in, Complex* out, int sign) {
-    return fftwf_plan_dft_1d(length, in, out, sign, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
-  }
-  static void execute(Plan plan, Complex* in, Complex* out) { fftwf_execute_dft(plan, in, out); }
-  static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
+  static constexpr auto plan = fftwf_plan_dft_1d;
+  static constexpr auto execute = fftwf_execute_dft;
+  static constexpr auto destroy = fftwf_destroy_plan;
 };
 
 }  // namespace
@@ -53,7 +47,8 @@ struct LineTransform<Real>::Plans {
     Eigen::ArrayX<std::complex<Real>> out(length);
     const auto plan = [&](int sign) {
       return Library::plan(length, reinterpret_cast<Complex*>(in.data()),
-                           reinterpret_cast<Complex*>(out.data()), sign);
+                           reinterpret_cast<Complex*>(out.data()), sign,
+                           FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
     };
     const std::scoped_lock lock(planner_lock());
     forward = plan(FFTW_FORWARD);

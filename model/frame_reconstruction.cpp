@@ -91,6 +91,7 @@ FrameReconstruction reconstruct_frames(const GerchbergSaxton<double>& reconstruc
 
   FrameReconstruction result;
   std::vector<double> light = light_of(std::vector<double>(planes, 1.0));
+  double reconstructed = 0.0;
   double change = 0.0;
   do {
     ++result.passes;
@@ -102,7 +103,7 @@ FrameReconstruction reconstruct_frames(const GerchbergSaxton<double>& reconstruc
     // The light of a pupil of unit amplitude, however much the reconstructed one has.
     const Field<double>& pupil = result.reconstruction.pupil_field;
     const double oversampling_squared = double(reconstructor.mask().count()) / energy;
-    const double reconstructed = pupil.abs2().sum() / oversampling_squared;
+    reconstructed = pupil.abs2().sum() / oversampling_squared;
     result.predicted = reconstructor.predict(pupil);
     std::vector<double> shares;
     for (std::size_t i = 0; i < planes; ++i) {
@@ -116,8 +117,6 @@ FrameReconstruction reconstruct_frames(const GerchbergSaxton<double>& reconstruc
     }
   } while (change > settled_change && result.passes < most_passes);
 
-  const double reconstructed = result.reconstruction.pupil_field.abs2().sum() /
-                               (double(reconstructor.mask().count()) / energy);
   for (std::size_t i = 0; i < planes; ++i) {
     PlaneConsistency plane = consistency_of(result.measured[i], result.predicted[i]);
     plane.light = light[i];

@@ -4,8 +4,6 @@
 #include "model/array.hpp"
 #include "model/fourier_transform.hpp"
 
-#include <complex>
-
 namespace nlcwfs {
 
 /// The Fresnel transfer function along one axis, exp(-i pi lambda z f^2), at the frequencies of a

@@ -2,12 +2,10 @@
 #include "model/gerchberg_saxton.hpp"
 
 #include "model/detector.hpp"
-#include "model/image_gaps.hpp"
 #include "model/line_kernels.hpp"
 #include "model/loop_change.hpp"
 #include "model/sample_positions.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -202,18 +200,6 @@ Field<double> GerchbergSaxton<Real>::get_pupil(const Field<Real>& field) const {
     pupil.row(row) = line.segment(rows.first, rows.size()).template cast<std::complex<double>>();
   }
   return mask_.select(pupil / double(propagator_.samples()), std::complex<double>(0.0));
-}
-
-template <class Real>
-auto GerchbergSaxton<Real>::gaps_of(const Image<double>& image) -> std::vector<Gap> {
-  std::vector<Gap> gaps;
-  if (!image.hasNaN()) return gaps;
-  for (Eigen::Index row = 0; row < image.rows(); ++row) {
-    for (Eigen::Index column = 0; column < image.cols(); ++column) {
-      if (std::isnan(image(row, column))) gaps.push_back({row, column});
-    }
-  }
-  return gaps;
 }
 
 template <class Real>

@@ -3,6 +3,7 @@
 
 #include "model/array.hpp"
 #include "model/fresnel_propagator.hpp"
+#include "model/image_gaps.hpp"
 #include "model/phase_unwrapping.hpp"
 #include "model/pupil.hpp"
 #include "model/sensor_design.hpp"
@@ -72,13 +73,6 @@ class GerchbergSaxton {
   Field<double> first_estimate(std::span<const Image<double>> images) const;
   /// The pupil from the transforms of its rows, 0 outside the aperture.
   Field<double> get_pupil(const Field<Real>& field) const;
-  /// A pixel that was not measured.
-  struct Gap {
-    Eigen::Index row;
-    Eigen::Index column;
-  };
-  /// Row by row; none where every pixel was measured.
-  static std::vector<Gap> gaps_of(const Image<double>& image);
   /// The amplitude step at one plane, on a field whose rows are Fourier transforms.
   /// @param gaps  the image's pixels without a value, row by row
   void measure(Field<Real>& field, const Image<Real>& image, std::span<const Gap> gaps,

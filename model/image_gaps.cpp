@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace nlcwfs {
 namespace {
@@ -25,25 +24,28 @@ double mean_of_neighbours(const Image<double>& image, Eigen::Index row, Eigen::I
 
 }  // namespace
 
-Image<double> with_gaps_filled(Image<double> image) {
-  struct Sample {
-    Eigen::Index row;
-    Eigen::Index column;
-    double value;
-  };
-  std::vector<Sample> gaps;
+std::vector<Gap> gaps_of(const Image<double>& image) {
+  std::vector<Gap> gaps;
+  if (!image.hasNaN()) return gaps;
   for (Eigen::Index row = 0; row < image.rows(); ++row) {
     for (Eigen::Index column = 0; column < image.cols(); ++column) {
-      if (std::isnan(image(row, column))) gaps.push_back({row, column, 0.0});
+      if (std::isnan(image(row, column))) gaps.push_back({row, column});
     }
   }
-  while (!gaps.empty()) {
-    for (Sample& gap : gaps) gap.value = mean_of_neighbours(image, gap.row, gap.column);
-    const std::size_t count = gaps.size();
-    for (const Sample& gap : gaps) image(gap.row, gap.column) = gap.value;
-    std::erase_if(gaps, [](const Sample& gap) { return !std::isnan(gap.value); });
-    if (gaps.size() == count) break;
-  }
+  return gaps;
+}
+
+Image<double> with_gaps_filled(Image<double> image) {
+  std::vector<Gap> gaps = gaps_of(image);
+  std::size_t filled = 0;
+  do {
+    const Image<double> before = image;
+    for (const auto& [row, column] : gaps) {
+      image(row, column) = mean_of_neighbours(before, row, column);
+    }
+    filled = std::erase_if(gaps,
+                           [&](const Gap& gap) { return !std::isnan(image(gap.row, gap.column)); });
+  } while (filled > 0);
   return image;
 }
 

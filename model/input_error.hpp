@@ -40,4 +40,10 @@ class InputError : public std::runtime_error {
   std::string remedy_;
 };
 
+/// @throws InputError of the other arguments unless the input is as it should be
+template <class Value>
+void require(bool is_right, std::string_view key, const Value& value, std::string_view allowed) {
+  if (!is_right) throw InputError(key, value, allowed);
+}
+
 }  // namespace nlcwfs

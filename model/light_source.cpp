@@ -26,28 +26,23 @@ void LightSource::validate(std::size_t planes) const {
     throw InputError("source.bands", fmt::format("{:g}:{:g}", band.shortest, band.longest),
                      "SHORTEST:LONGEST above 0, such as 500nm:600nm");
   }
-  if (is_split && bands.size() > 1) {
-    throw InputError("source.division", "split",
-                     fmt::format("source.bands must be one band, but has {}", bands.size()));
-  }
-  if (bands.size() > 1 && bands.size() != planes) {
-    throw InputError("source.bands", fmt::format("{} bands", bands.size()),
-                     fmt::format("one band, or one for each of the {} planes", planes));
-  }
-  if (wavelengths < 1) throw InputError("source.wavelengths", wavelengths, "at least 1");
+  require(!is_split || bands.size() == 1, "source.division", "split",
+          fmt::format("source.bands must be one band, but has {}", bands.size()));
+  require(bands.size() == 1 || bands.size() == planes, "source.bands",
+          fmt::format("{} bands", bands.size()),
+          fmt::format("one band, or one for each of the {} planes", planes));
+  require(wavelengths >= 1, "source.wavelengths", wavelengths, "at least 1");
   // Each is propagated on its own, with kernels of its own.
   if (double(planes) * wavelengths > most_lines) {
     throw InputError("source.wavelengths", wavelengths,
                      fmt::format("at most {} with {} planes", most_lines / planes, planes));
   }
   if (weights.empty()) return;
-  if (weights.size() != static_cast<std::size_t>(wavelengths)) {
-    throw InputError("source.weights", fmt::format("{} weights", weights.size()),
-                     fmt::format("one for each of the {} of source.wavelengths", wavelengths));
-  }
-  if (std::ranges::min(weights) < 0.0 || !(std::ranges::max(weights) > 0.0)) {
-    throw InputError("source.weights", std::ranges::min(weights), "0 or more, not all 0");
-  }
+  require(weights.size() == static_cast<std::size_t>(wavelengths), "source.weights",
+          fmt::format("{} weights", weights.size()),
+          fmt::format("one for each of the {} of source.wavelengths", wavelengths));
+  require(std::ranges::min(weights) >= 0.0 && std::ranges::max(weights) > 0.0, "source.weights",
+          std::ranges::min(weights), "0 or more, not all 0");
 }
 
 Band LightSource::band(std::size_t plane, std::size_t planes, double wavelength) const {

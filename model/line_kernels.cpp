@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 
 namespace nlcwfs {
@@ -64,34 +63,6 @@ Lanes<Real> product(Lanes<Real> z, Lanes<Real> real, Lanes<Real> imaginary) {
   return z * real + swap_parts(z) * imaginary;
 }
 
-template <class Real>
-void multiply(const std::complex<Real>* in, const LineFactors<Real>& factors,
-              std::complex<Real> factor, std::complex<Real>* out) {
-  using Vector = Lanes<Real>;
-  constexpr int reals = sizeof(Vector) / sizeof(Real);
-  Vector factor_real;
-  Vector factor_imaginary;
-  for (int i = 0; i < reals; ++i) {
-    factor_real[i] = factor.real();
-    factor_imaginary[i] = i % 2 == 0 ? -factor.imag() : factor.imag();
-  }
-  const auto* values = reinterpret_cast<const Real*>(in);
-  auto* products = reinterpret_cast<Real*>(out);
-  const int length = 2 * factors.length();
-  int i = 0;
-  for (; i + reals <= length; i += reals) {
-    const Vector scaled = product<Real>(load(values + i), factor_real, factor_imaginary);
-    store<Real>(product<Real>(scaled, load(factors.real() + i), load(factors.imaginary() + i)),
-                products + i);
-  }
-  for (; i < length; i += 2) {  // the last of an odd number in single precision
-    const Real re = values[i] * factor.real() - values[i + 1] * factor.imag();
-    const Real im = values[i + 1] * factor.real() + values[i] * factor.imag();
-    products[i] = re * factors.real()[i] + im * factors.imaginary()[i];
-    products[i + 1] = im * factors.real()[i + 1] + re * factors.imaginary()[i + 1];
-  }
-}
-
 /// A complex number that moves as a whole.
 template <class Real>
 struct Whole;
@@ -103,42 +74,6 @@ template <>
 struct Whole<double> {
   using Value = Lanes<double>;
 };
-
-/// By square tiles: their rows and columns are short runs of neighbouring values, which move
-/// through vector registers.
-template <class Real>
-void transpose_tiles(const std::complex<Real>* in, std::ptrdiff_t in_stride,
-                     std::complex<Real>* out, std::ptrdiff_t out_stride, std::ptrdiff_t rows,
-                     std::ptrdiff_t columns) {
-  constexpr std::ptrdiff_t side = 4;
-  using Value = typename Whole<Real>::Value;
-  const std::ptrdiff_t whole_rows = rows - rows % side;
-  const std::ptrdiff_t whole_columns = columns - columns % side;
-  for (std::ptrdiff_t row = 0; row < whole_rows; row += side) {
-    for (std::ptrdiff_t column = 0; column < whole_columns; column += side) {
-      const auto* from = reinterpret_cast<const Value*>(in + row * in_stride + column);
-      auto* to = reinterpret_cast<Value*>(out + column * out_stride + row);
-      // NOLINTNEXTLINE(modernize-avoid-c-arrays): std::array would lose the type's attributes
-      Value tile[side][side];
-      for (int i = 0; i < side; ++i) {
-        for (int j = 0; j < side; ++j) tile[j][i] = from[i * in_stride + j];
-      }
-      for (int i = 0; i < side; ++i) {
-        for (int j = 0; j < side; ++j) to[i * out_stride + j] = tile[i][j];
-      }
-    }
-    for (std::ptrdiff_t column = whole_columns; column < columns; ++column) {
-      for (int i = 0; i < side; ++i) {
-        out[column * out_stride + row + i] = in[(row + i) * in_stride + column];
-      }
-    }
-  }
-  for (std::ptrdiff_t row = whole_rows; row < rows; ++row) {
-    for (std::ptrdiff_t column = 0; column < columns; ++column) {
-      out[column * out_stride + row] = in[row * in_stride + column];
-    }
-  }
-}
 
 /// The amplitude step's factor for a field whose pixel has a given mean intensity.
 template <class Real>
@@ -223,17 +158,6 @@ void replace_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int sample
   }
 }
 
-template <class Real>
-void replace_in_pixels(std::complex<Real>* field, std::ptrdiff_t stride, int samples, Real gain,
-                       const Real* measured, Real relaxation, Real* scratch, int pixels) {
-  const AmplitudeStep<Real> step(gain, relaxation);
-  if (samples == 1) {
-    replace_samples(reinterpret_cast<Real*>(field), step, measured, pixels);
-  } else {
-    replace_pixels(field, stride, samples, step, measured, scratch, pixels);
-  }
-}
-
 }  // namespace
 
 template <class Real>
@@ -249,35 +173,93 @@ LineFactors<Real>::LineFactors(const Eigen::ArrayXcd& factors)
 template class LineFactors<float>;
 template class LineFactors<double>;
 
-void multiply_line(const std::complex<double>* in, const LineFactors<double>& factors,
-                   std::complex<double> factor, std::complex<double>* out) {
-  multiply(in, factors, factor, out);
+template <class Real>
+void multiply_line(const std::complex<Real>* in, const LineFactors<Real>& factors,
+                   std::complex<Real> factor, std::complex<Real>* out) {
+  using Vector = Lanes<Real>;
+  constexpr int reals = sizeof(Vector) / sizeof(Real);
+  Vector factor_real;
+  Vector factor_imaginary;
+  for (int i = 0; i < reals; ++i) {
+    factor_real[i] = factor.real();
+    factor_imaginary[i] = i % 2 == 0 ? -factor.imag() : factor.imag();
+  }
+  const auto* values = reinterpret_cast<const Real*>(in);
+  auto* products = reinterpret_cast<Real*>(out);
+  const int length = 2 * factors.length();
+  int i = 0;
+  for (; i + reals <= length; i += reals) {
+    const Vector scaled = product<Real>(load(values + i), factor_real, factor_imaginary);
+    store<Real>(product<Real>(scaled, load(factors.real() + i), load(factors.imaginary() + i)),
+                products + i);
+  }
+  for (; i < length; i += 2) {  // the last of an odd number in single precision
+    const Real re = values[i] * factor.real() - values[i + 1] * factor.imag();
+    const Real im = values[i + 1] * factor.real() + values[i] * factor.imag();
+    products[i] = re * factors.real()[i] + im * factors.imaginary()[i];
+    products[i + 1] = im * factors.real()[i + 1] + re * factors.imaginary()[i + 1];
+  }
 }
 
-void multiply_line(const std::complex<float>* in, const LineFactors<float>& factors,
-                   std::complex<float> factor, std::complex<float>* out) {
-  multiply(in, factors, factor, out);
-}
-
-void transpose(const std::complex<double>* in, std::ptrdiff_t in_stride, std::complex<double>* out,
+// By square tiles: their rows and columns are short runs of neighbouring values, which move through
+// vector registers.
+template <class Real>
+void transpose(const std::complex<Real>* in, std::ptrdiff_t in_stride, std::complex<Real>* out,
                std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns) {
-  transpose_tiles(in, in_stride, out, out_stride, rows, columns);
+  constexpr std::ptrdiff_t side = 4;
+  using Value = typename Whole<Real>::Value;
+  const std::ptrdiff_t whole_rows = rows - rows % side;
+  const std::ptrdiff_t whole_columns = columns - columns % side;
+  for (std::ptrdiff_t row = 0; row < whole_rows; row += side) {
+    for (std::ptrdiff_t column = 0; column < whole_columns; column += side) {
+      const auto* from = reinterpret_cast<const Value*>(in + row * in_stride + column);
+      auto* to = reinterpret_cast<Value*>(out + column * out_stride + row);
+      // NOLINTNEXTLINE(modernize-avoid-c-arrays): std::array would lose the type's attributes
+      Value tile[side][side];
+      for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) tile[j][i] = from[i * in_stride + j];
+      }
+      for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) to[i * out_stride + j] = tile[i][j];
+      }
+    }
+    for (std::ptrdiff_t column = whole_columns; column < columns; ++column) {
+      for (int i = 0; i < side; ++i) {
+        out[column * out_stride + row + i] = in[(row + i) * in_stride + column];
+      }
+    }
+  }
+  for (std::ptrdiff_t row = whole_rows; row < rows; ++row) {
+    for (std::ptrdiff_t column = 0; column < columns; ++column) {
+      out[column * out_stride + row] = in[row * in_stride + column];
+    }
+  }
 }
 
-void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride, int samples,
-                        double gain, const double* measured, double relaxation, double* scratch,
-                        int pixels) {
-  replace_in_pixels(field, stride, samples, gain, measured, relaxation, scratch, pixels);
+template <class Real>
+void replace_amplitudes(std::complex<Real>* field, std::ptrdiff_t stride, int samples, Real gain,
+                        const Real* measured, Real relaxation, Real* scratch, int pixels) {
+  const AmplitudeStep<Real> step(gain, relaxation);
+  if (samples == 1) {
+    replace_samples(reinterpret_cast<Real*>(field), step, measured, pixels);
+  } else {
+    replace_pixels(field, stride, samples, step, measured, scratch, pixels);
+  }
 }
 
-void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::complex<float>* out,
-               std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns) {
-  transpose_tiles(in, in_stride, out, out_stride, rows, columns);
-}
+template void multiply_line(const std::complex<float>*, const LineFactors<float>&,
+                            std::complex<float>, std::complex<float>*);
+template void multiply_line(const std::complex<double>*, const LineFactors<double>&,
+                            std::complex<double>, std::complex<double>*);
 
-void replace_amplitudes(std::complex<float>* field, std::ptrdiff_t stride, int samples, float gain,
-                        const float* measured, float relaxation, float* scratch, int pixels) {
-  replace_in_pixels(field, stride, samples, gain, measured, relaxation, scratch, pixels);
-}
+template void transpose(const std::complex<float>*, std::ptrdiff_t, std::complex<float>*,
+                        std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t);
+template void transpose(const std::complex<double>*, std::ptrdiff_t, std::complex<double>*,
+                        std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t);
+
+template void replace_amplitudes(std::complex<float>*, std::ptrdiff_t, int, float, const float*,
+                                 float, float*, int);
+template void replace_amplitudes(std::complex<double>*, std::ptrdiff_t, int, double, const double*,
+                                 double, double*, int);
 
 }  // namespace nlcwfs

@@ -36,18 +36,14 @@ class LineFactors {
 };
 
 /// out[i] = in[i] * factors[i] * factor for i < factors.length(); out may be in.
-void multiply_line(const std::complex<double>* in, const LineFactors<double>& factors,
-                   std::complex<double> factor, std::complex<double>* out);
-/// The same in single precision.
-void multiply_line(const std::complex<float>* in, const LineFactors<float>& factors,
-                   std::complex<float> factor, std::complex<float>* out);
+template <class Real>
+void multiply_line(const std::complex<Real>* in, const LineFactors<Real>& factors,
+                   std::complex<Real> factor, std::complex<Real>* out);
 
 /// out[column * out_stride + row] = in[row * in_stride + column]; strides in values. `in` and `out`
 /// do not overlap and are aligned to the size of a value.
-void transpose(const std::complex<double>* in, std::ptrdiff_t in_stride, std::complex<double>* out,
-               std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns);
-/// The same in single precision.
-void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::complex<float>* out,
+template <class Real>
+void transpose(const std::complex<Real>* in, std::ptrdiff_t in_stride, std::complex<Real>* out,
                std::ptrdiff_t out_stride, std::ptrdiff_t rows, std::ptrdiff_t columns);
 
 /// The amplitude step for one row of detector pixels, each of samples x samples field samples.
@@ -60,11 +56,8 @@ void transpose(const std::complex<float>* in, std::ptrdiff_t in_stride, std::com
 /// @param gain      factor to apply to the field first, such as a transform's norm
 /// @param measured  each pixel's intensity; below 0 counts as 0
 /// @param scratch   room for `pixels` values
-void replace_amplitudes(std::complex<double>* field, std::ptrdiff_t stride, int samples,
-                        double gain, const double* measured, double relaxation, double* scratch,
-                        int pixels);
-/// The same in single precision.
-void replace_amplitudes(std::complex<float>* field, std::ptrdiff_t stride, int samples, float gain,
-                        const float* measured, float relaxation, float* scratch, int pixels);
+template <class Real>
+void replace_amplitudes(std::complex<Real>* field, std::ptrdiff_t stride, int samples, Real gain,
+                        const Real* measured, Real relaxation, Real* scratch, int pixels);
 
 }  // namespace nlcwfs

@@ -42,10 +42,8 @@ double von_karman_correlation(double x) {
 }  // namespace
 
 void Seeing::validate() const {
-  if (!(fried_parameter > 0.0) || !std::isfinite(fried_parameter)) {
-    throw InputError("seeing.fried_parameter", fried_parameter,
-                     "a length above 0, such as 0.125 or 12.5cm");
-  }
+  require(fried_parameter > 0.0 && std::isfinite(fried_parameter), "seeing.fried_parameter",
+          fried_parameter, "a length above 0, such as 0.125 or 12.5cm");
   if (outer_scale && !(*outer_scale > 0.0 && std::isfinite(*outer_scale))) {
     throw InputError("seeing.outer_scale", *outer_scale,
                      "a length above 0, such as 25m, or nothing for an infinite outer scale");

@@ -24,10 +24,8 @@ double farthest_distance(const Telescope& telescope) {
 
 void validate_planes(std::string_view key, const std::vector<double>& planes,
                      const Telescope& telescope) {
-  if (planes.size() < 2) {
-    throw InputError(key, fmt::format("{}", fmt::join(planes, ",")),
-                     "at least 2 distances, such as -47km,47km");
-  }
+  require(planes.size() >= 2, key, fmt::format("{}", fmt::join(planes, ",")),
+          "at least 2 distances, such as -47km,47km");
   const double farthest = farthest_distance(telescope);
   for (const double plane : planes) {
     if (!(std::abs(plane) <= farthest)) {
@@ -50,28 +48,22 @@ int SensorDesign::grid_width() const {
 void SensorDesign::validate(const Telescope& telescope) const {
   validate_planes("sensor.planes", planes, telescope);
   detector.validate();
-  if (reconstruction.max_loops < 1 || reconstruction.max_loops > 10000) {
-    throw InputError("reconstruction.max_loops", reconstruction.max_loops, "from 1 to 10000");
-  }
-  if (!(reconstruction.tolerance >= 0.0) || !std::isfinite(reconstruction.tolerance)) {
-    throw InputError("reconstruction.tolerance", reconstruction.tolerance,
-                     "a length of at least 0, such as 1nm");
-  }
+  require(reconstruction.max_loops >= 1 && reconstruction.max_loops <= 10000,
+          "reconstruction.max_loops", reconstruction.max_loops, "from 1 to 10000");
+  require(reconstruction.tolerance >= 0.0 && std::isfinite(reconstruction.tolerance),
+          "reconstruction.tolerance", reconstruction.tolerance,
+          "a length of at least 0, such as 1nm");
   for (const double beta : {reconstruction.relaxation_start, reconstruction.relaxation_end}) {
-    if (!(std::abs(beta) < 1.0)) {
-      throw InputError("reconstruction.relaxation", beta,
-                       "above -1 and below 1, or start:end of these");
-    }
+    require(std::abs(beta) < 1.0, "reconstruction.relaxation", beta,
+            "above -1 and below 1, or start:end of these");
   }
-  if (reconstruction.oversampling < 1 || reconstruction.oversampling > 16) {
-    throw InputError("reconstruction.oversampling", reconstruction.oversampling, "from 1 to 16");
-  }
+  require(reconstruction.oversampling >= 1 && reconstruction.oversampling <= 16,
+          "reconstruction.oversampling", reconstruction.oversampling, "from 1 to 16");
   validate_grid_window("reconstruction.window", reconstruction.window,
                        "detector.pupil_pixels x reconstruction.oversampling", pupil_samples());
-  if (grid_width() < detector.width() * reconstruction.oversampling) {
-    throw InputError("reconstruction.window", reconstruction.window,
-                     fmt::format("at least detector.window, which is {:g}", detector.window));
-  }
+  require(grid_width() >= detector.width() * reconstruction.oversampling, "reconstruction.window",
+          reconstruction.window,
+          fmt::format("at least detector.window, which is {:g}", detector.window));
   const int width = grid_width();
   const double bytes_per_image = double(width) * width * sizeof(double);
   if (double(planes.size()) * bytes_per_image > max_image_memory) {

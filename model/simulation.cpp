@@ -6,7 +6,6 @@
 #include "model/grid_width.hpp"
 #include "model/input_error.hpp"
 #include "model/random_stream.hpp"
-#include "model/true_light.hpp"
 #include "model/wrap_free_propagator.hpp"
 
 #include <algorithm>
@@ -14,7 +13,6 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -47,21 +45,17 @@ std::vector<std::size_t> ranks_by_distance(const std::vector<double>& planes) {
 
 /// Everything of a design's simulation that does not depend on the screen.
 template <class Real>
-class Experiment {
- public:
-  Experiment(const Telescope& telescope, const SensorDesign& design,
-             const SimulationOptions& options, const PupilMask& truth_mask, ImageCache& images)
-      : telescope_(telescope),
-        detector_(design.detector),
-        planes_(design.planes),
-        options_(options),
-        truth_mask_(truth_mask),
-        images_(images),
-        samples_per_pixel_(static_cast<int>(truth_mask.rows()) / design.detector.pupil_pixels),
-        noise_keys_(ranks_by_distance(design.planes)),
-        light_(options.truth, telescope, design, static_cast<int>(truth_mask.rows()),
-               options.source),
-        reconstructor_(telescope, design) {}
+struct Experiment {
+  const Telescope& telescope;
+  const SensorDesign& design;
+  const SimulationOptions& options;
+  const PupilMask& truth_mask;
+  ImageCache& cache;
+  int samples_per_pixel = static_cast<int>(truth_mask.rows()) / design.detector.pupil_pixels;
+  std::vector<std::size_t> noise_keys = ranks_by_distance(design.planes);
+  TrueLight true_light{options.truth, telescope, design, static_cast<int>(truth_mask.rows()),
+                       options.source};
+  GerchbergSaxton<Real> reconstructor{telescope, design};
 
   /// @param record  gets all but the performance, where there is one
   ScreenPerformance run(const PhaseScreen& truth, std::size_t screen, bool follows_loops,
@@ -75,16 +69,16 @@ class Experiment {
     ScreenPerformance result;
     const auto after_loop = [&](const Field<double>& pupil) {
       const std::chrono::duration<double> so_far = Clock::now() - data_start;
-      if (so_far.count() > options_.time_limit) {
+      if (so_far.count() > options.time_limit) {
         throw std::runtime_error(fmt::format(
-            "a wavefront took longer than simulation.time_limit, {:g} s", options_.time_limit));
+            "a wavefront took longer than simulation.time_limit, {:g} s", options.time_limit));
       }
       if (!follows_loops) return;
       result.residual_after_loops.push_back(
-          measured(pupil, reconstructor_.unwrapper().unwrap(pupil), truth).residual_wfe);
+          measured(pupil, reconstructor.unwrapper().unwrap(pupil), truth).residual_wfe);
     };
-    const Reconstruction reconstruction = reconstructor_.reconstruct(images, after_loop);
-    const Image<double> phase = reconstructor_.unwrapper().unwrap(reconstruction.pupil_field);
+    const Reconstruction reconstruction = reconstructor.reconstruct(images, after_loop);
+    const Image<double> phase = reconstructor.unwrapper().unwrap(reconstruction.pupil_field);
     const std::chrono::duration<double> elapsed = Clock::now() - start;
 
     result.wavefront = measured(reconstruction.pupil_field, phase, truth);
@@ -106,41 +100,41 @@ class Experiment {
     return result;
   }
 
- private:
   /// Without piston, and with gaps outside the pupil.
   Image<double> over_pupil(const Image<double>& phase) const {
-    const PupilMask& mask = reconstructor_.mask();
+    const PupilMask& mask = reconstructor.mask();
     return mask.select(phase - piston(phase, mask), std::numeric_limits<double>::quiet_NaN());
   }
 
   WavefrontMetrics measured(const Field<double>& pupil, const Image<double>& phase,
                             const PhaseScreen& truth) const {
-    return measure_wavefront(pupil, phase, reconstructor_.mask(), truth, truth_mask_,
-                             telescope_.wavelength);
+    return measure_wavefront(pupil, phase, reconstructor.mask(), truth, truth_mask,
+                             telescope.wavelength);
   }
 
   /// The light of a unit-amplitude pupil, in units of intensity times detector pixels.
   double pupil_energy() const {
-    return double(truth_mask_.count()) / (samples_per_pixel_ * samples_per_pixel_);
+    return double(truth_mask.count()) / (samples_per_pixel * samples_per_pixel);
   }
 
   std::vector<ImageCache::SharedImage> noise_free_images(const PhaseScreen& truth,
                                                          std::size_t screen) const {
     const auto key = [&](std::size_t plane) {
-      return ImageCache::Key{screen, planes_[plane], detector_.width(), detector_.pupil_pixels,
-                             options_.source.band(plane, planes_.size(), telescope_.wavelength)};
+      return ImageCache::Key{
+          screen, design.planes[plane], design.detector.width(), design.detector.pupil_pixels,
+          options.source.band(plane, design.planes.size(), telescope.wavelength)};
     };
-    std::vector<ImageCache::SharedImage> images(planes_.size());
+    std::vector<ImageCache::SharedImage> images(design.planes.size());
     std::vector<std::size_t> missing;
-    for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
-      images[plane] = images_.find(key(plane));
+    for (std::size_t plane = 0; plane < design.planes.size(); ++plane) {
+      images[plane] = cache.find(key(plane));
       if (!images[plane]) missing.push_back(plane);
     }
     if (missing.empty()) return images;
-    std::vector<Image<double>> made = light_.images(truth, missing);
+    std::vector<Image<double>> made = true_light.images(truth, missing);
     for (std::size_t i = 0; i < missing.size(); ++i) {
       images[missing[i]] = std::make_shared<const Image<double>>(std::move(made[i]));
-      images_.add(key(missing[i]), images[missing[i]]);
+      cache.add(key(missing[i]), images[missing[i]]);
     }
     return images;
   }
@@ -151,62 +145,27 @@ class Experiment {
     std::vector<Image<double>> images;
     images.reserve(light.size());
     for (const ImageCache::SharedImage& image : light) images.push_back(*image);
-    const double photons = detector_.photons_per_frame();
+    const double photons = design.detector.photons_per_frame();
     if (photons == 0.0) return images;
     const double photons_per_unit = photons / double(images.size()) / pupil_energy();
     for (std::size_t plane = 0; plane < images.size(); ++plane) {
-      RandomStream stream = random_stream({options_.noise_seed, screen, noise_keys_[plane]});
-      add_noise(images[plane], photons_per_unit, detector_.read_noise, stream);
+      RandomStream stream = random_stream({options.noise_seed, screen, noise_keys[plane]});
+      add_noise(images[plane], photons_per_unit, design.detector.read_noise, stream);
     }
     return images;
   }
-
-  const Telescope& telescope_;
-  Detector detector_;
-  std::vector<double> planes_;
-  SimulationOptions options_;
-  const PupilMask& truth_mask_;
-  ImageCache& images_;
-  int samples_per_pixel_;
-  std::vector<std::size_t> noise_keys_;
-  TrueLight light_;
-  GerchbergSaxton<Real> reconstructor_;
 };
 
-template <class Real>
-Performance run_screens(const Telescope& telescope, const SensorDesign& design,
-                        const SimulationOptions& options, const PupilMask& truth_mask,
-                        const std::vector<PhaseScreen>& screens, std::size_t first,
-                        std::size_t count, bool follows_loops, const ScreenWatch& watch,
-                        ImageCache& images) {
-  const Experiment<Real> experiment(telescope, design, options, truth_mask, images);
-  Performance performance;
-  performance.screens.resize(count);
-  std::atomic<std::size_t> next = 0;
-  std::atomic<bool> is_ended = false;
-  // One screen at a time: they take different numbers of loops. Whoever is free takes the next one.
-  tbb::parallel_for(
-      std::size_t{0}, count,
-      [&](std::size_t) {
-        if (is_ended) return;
-        const std::size_t i = next++;
-        performance.screens[i] = experiment.run(screens[first + i], first + i, follows_loops);
-        if (watch && !watch()) is_ended = true;
-      },
-      tbb::simple_partitioner());
-  performance.screens.resize(next);
-  return performance;
-}
-
-template <class Real>
-ScreenRecord record_screen(const Telescope& telescope, const SensorDesign& design,
-                           const SimulationOptions& options, const PupilMask& truth_mask,
-                           const std::vector<PhaseScreen>& screens, std::size_t screen,
-                           ImageCache& images) {
-  const Experiment<Real> experiment(telescope, design, options, truth_mask, images);
-  ScreenRecord record;
-  record.performance = experiment.run(screens[screen], screen, true, &record);
-  return record;
+/// Calls `action` with the experiment, in the precision that the options ask for.
+template <class Action>
+void with_experiment(const Telescope& telescope, const SensorDesign& design,
+                     const SimulationOptions& options, const PupilMask& truth_mask,
+                     ImageCache& images, const Action& action) {
+  if (options.precision == Precision::double_precision) {
+    action(Experiment<double>{telescope, design, options, truth_mask, images});
+  } else {
+    action(Experiment<float>{telescope, design, options, truth_mask, images});
+  }
 }
 
 /// @throws std::runtime_error where its wavefront errors are none
@@ -223,11 +182,9 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
   telescope.validate();
   options.source.validate(design.planes.size());
   for (const int samples : {design.detector.pupil_pixels, truth_samples}) {
-    if (!pupil_mask(samples, telescope.central_obscuration).any()) {
-      throw InputError(
-          "telescope.central_obscuration", telescope.central_obscuration,
-          fmt::format("leaves none of {} x {} samples of the pupil lit", samples, samples));
-    }
+    require(pupil_mask(samples, telescope.central_obscuration).any(),
+            "telescope.central_obscuration", telescope.central_obscuration,
+            fmt::format("leaves none of {} x {} samples of the pupil lit", samples, samples));
   }
   const int pixels = design.detector.pupil_pixels;
   if (options.truth != TruthModel::extended) {
@@ -237,28 +194,23 @@ SensorDesign simulated_design(SensorDesign design, const Telescope& telescope,
     design.detector.window = design.reconstruction.window;
   }
   if (options.truth == TruthModel::matched) {
-    if (truth_samples != pixels) {
-      throw InputError("simulation.pupil_samples", truth_samples,
-                       fmt::format("a matched truth has the detector's {} samples", pixels));
-    }
-    if (design.reconstruction.oversampling != 1) {
-      throw InputError("reconstruction.oversampling", design.reconstruction.oversampling,
-                       "1 with a matched truth, whose grid is the reconstruction's");
-    }
+    require(truth_samples == pixels, "simulation.pupil_samples", truth_samples,
+            fmt::format("a matched truth has the detector's {} samples", pixels));
+    require(design.reconstruction.oversampling == 1, "reconstruction.oversampling",
+            design.reconstruction.oversampling,
+            "1 with a matched truth, whose grid is the reconstruction's");
     return design;
   }
   design.validate(telescope);
-  if (truth_samples % pixels != 0) {
-    throw InputError("simulation.pupil_samples", truth_samples,
-                     fmt::format("a multiple of detector.pupil_pixels, which is {}", pixels));
-  }
-  if (truth_samples % design.pupil_samples() != 0 && design.pupil_samples() % truth_samples != 0) {
-    throw InputError("reconstruction.oversampling", design.reconstruction.oversampling,
-                     fmt::format("detector.pupil_pixels x reconstruction.oversampling, which is "
-                                 "{}, must be a multiple or a divisor of "
-                                 "simulation.pupil_samples, which is {}",
-                                 design.pupil_samples(), truth_samples));
-  }
+  require(truth_samples % pixels == 0, "simulation.pupil_samples", truth_samples,
+          fmt::format("a multiple of detector.pupil_pixels, which is {}", pixels));
+  require(
+      truth_samples % design.pupil_samples() == 0 || design.pupil_samples() % truth_samples == 0,
+      "reconstruction.oversampling", design.reconstruction.oversampling,
+      fmt::format("detector.pupil_pixels x reconstruction.oversampling, which is "
+                  "{}, must be a multiple or a divisor of "
+                  "simulation.pupil_samples, which is {}",
+                  design.pupil_samples(), truth_samples));
   if (options.truth == TruthModel::periodic) {
     validate_grid_window("reconstruction.window", design.reconstruction.window,
                          "simulation.pupil_samples", truth_samples);
@@ -317,11 +269,12 @@ Performance Simulation::follow(SensorDesign design, const ScreenWatch& watch) co
 
 ScreenRecord Simulation::record(const SensorDesign& design, int screen) const {
   assert(screen >= 0 && screen < screen_count());
-  const auto record_screen_of = options_.precision == Precision::double_precision
-                                    ? record_screen<double>
-                                    : record_screen<float>;
-  ScreenRecord record = record_screen_of(telescope_, checked(design), options_, mask_, screens_,
-                                         static_cast<std::size_t>(screen), images_);
+  const auto index = static_cast<std::size_t>(screen);
+  ScreenRecord record;
+  const auto run_one = [&](const auto& experiment) {
+    record.performance = experiment.run(screens_[index], index, true, &record);
+  };
+  with_experiment(telescope_, checked(design), options_, mask_, images_, run_one);
   require_numbers(record.performance);
   return record;
 }
@@ -357,11 +310,24 @@ std::vector<double> Simulation::aberrations() const {
 
 Performance Simulation::run(const SensorDesign& design, std::size_t first, std::size_t count,
                             bool follows_loops, const ScreenWatch& watch) const {
-  const SensorDesign valid = checked(design);
-  const auto run_screens_of =
-      options_.precision == Precision::double_precision ? run_screens<double> : run_screens<float>;
-  Performance performance = run_screens_of(telescope_, valid, options_, mask_, screens_, first,
-                                           count, follows_loops, watch, images_);
+  Performance performance;
+  performance.screens.resize(count);
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> is_ended = false;
+  const auto run_all = [&](const auto& experiment) {
+    // One screen at a time: they take different numbers of loops. Whoever is free takes the next.
+    tbb::parallel_for(
+        std::size_t{0}, count,
+        [&](std::size_t) {
+          if (is_ended) return;
+          const std::size_t i = next++;
+          performance.screens[i] = experiment.run(screens_[first + i], first + i, follows_loops);
+          if (watch && !watch()) is_ended = true;
+        },
+        tbb::simple_partitioner());
+  };
+  with_experiment(telescope_, checked(design), options_, mask_, images_, run_all);
+  performance.screens.resize(next);
   for (const ScreenPerformance& screen : performance.screens) require_numbers(screen);
   return performance;
 }

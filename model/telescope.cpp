@@ -9,16 +9,12 @@
 namespace nlcwfs {
 
 void Telescope::validate() const {
-  if (!(diameter > 0.0) || !std::isfinite(diameter)) {
-    throw InputError("telescope.diameter", diameter, "a length above 0, such as 0.5 or 500mm");
-  }
-  if (!(wavelength > 0.0) || !std::isfinite(wavelength)) {
-    throw InputError("telescope.wavelength", wavelength, "a length above 0, such as 532nm");
-  }
-  if (!(central_obscuration >= 0.0 && central_obscuration < 1.0)) {
-    throw InputError("telescope.central_obscuration", central_obscuration,
-                     "a fraction of the diameter, at least 0 and below 1");
-  }
+  require(diameter > 0.0 && std::isfinite(diameter), "telescope.diameter", diameter,
+          "a length above 0, such as 0.5 or 500mm");
+  require(wavelength > 0.0 && std::isfinite(wavelength), "telescope.wavelength", wavelength,
+          "a length above 0, such as 532nm");
+  require(central_obscuration >= 0.0 && central_obscuration < 1.0, "telescope.central_obscuration",
+          central_obscuration, "a fraction of the diameter, at least 0 and below 1");
   if (relay_beam_diameter && !(*relay_beam_diameter > 0.0 && std::isfinite(*relay_beam_diameter))) {
     throw InputError("telescope.relay_beam_diameter", *relay_beam_diameter,
                      "a length above 0, such as 10mm, or nothing");

@@ -105,11 +105,9 @@ TurbulenceScreenGenerator::TurbulenceScreenGenerator(const Seeing& seeing, int s
     : samples_(samples), seed_(seed), transform_(1) {
   assert(samples >= 2 && diameter > 0.0);
   seeing.validate();
-  if (!(diameter / seeing.fried_parameter <= strongest_turbulence)) {
-    throw InputError(
-        "seeing.fried_parameter", seeing.fried_parameter,
-        fmt::format("at least the diameter, {:g} m, over {:g}", diameter, strongest_turbulence));
-  }
+  require(diameter / seeing.fried_parameter <= strongest_turbulence, "seeing.fried_parameter",
+          seeing.fried_parameter,
+          fmt::format("at least the diameter, {:g} m, over {:g}", diameter, strongest_turbulence));
   const double longest = std::numbers::sqrt2 * (samples - 1);  // in samples
   const EmbeddedCovariance covariance(longest * diameter / samples, seeing);
   tilt_per_sample_ = std::sqrt(2.0 * covariance.quadratic()) / longest;

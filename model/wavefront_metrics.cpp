@@ -11,13 +11,10 @@ namespace {
 
 /// `image` repeated over square blocks of factor x factor samples.
 Image<double> repeat(const Image<double>& image, Eigen::Index factor) {
-  Image<double> repeated(image.rows() * factor, image.cols() * factor);
-  for (Eigen::Index row = 0; row < repeated.rows(); ++row) {
-    for (Eigen::Index column = 0; column < repeated.cols(); ++column) {
-      repeated(row, column) = image(row / factor, column / factor);
-    }
-  }
-  return repeated;
+  const Eigen::Index samples = image.rows() * factor;
+  const Eigen::ArrayX<Eigen::Index> source =
+      Eigen::ArrayX<Eigen::Index>::LinSpaced(samples, 0, samples - 1) / factor;
+  return image(source, source);
 }
 
 /// The samples 0 <= index < size that lie within half_width of a position.
