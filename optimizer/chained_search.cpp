@@ -64,34 +64,32 @@ SearchPoint centre_of(const std::vector<SubSpace>& sub_spaces, int sub_space) {
 }
 
 /// One search under way.
-class ChainedSearch {
- public:
-  /// @param starts  at least one
-  ChainedSearch(Evaluator& evaluator, SearchMethod method, std::vector<SearchPoint> starts,
-                std::uint64_t seed)
-      : evaluator_(evaluator),
-        method_(std::move(method)),
-        starts_(std::move(starts)),
-        seed_(seed) {}
+struct ChainedSearch {
+  Evaluator& evaluator;
+  SearchMethod method;
+  std::vector<SearchPoint> starts;  ///< at least one
+  std::uint64_t seed;
+  std::uint64_t round = 0;
+  std::vector<SearchStage> begun = {};  ///< with the evaluations before each
 
   /// Returns where nothing is left to try. @throws SearchStopped at a limit
   void run() {
     begin_stage("starts");
-    evaluator_.evaluate(starts_);
-    if (method_.global == dlib_name && method_.local.empty()) {
-      begin_stage(method_.global);
-      minimize_with_dlib(evaluator_, starts_,
-                         {.max_evaluations = std::numeric_limits<int>::max(), .seed = seed_});
+    evaluator.evaluate(starts);
+    if (method.global == dlib_name && method.local.empty()) {
+      begin_stage(method.global);
+      minimize_with_dlib(evaluator, starts,
+                         {.max_evaluations = std::numeric_limits<int>::max(), .seed = seed});
       return;
     }
     for (EvaluatedDesign before;;) {
-      const int evaluations_before = evaluator_.evaluations();
+      const int evaluations_before = evaluator.evaluations();
       search_globally();
       const bool all_compared = compare_neighbours();
       refine();
       // Another round would ask the same again.
-      if (evaluator_.evaluations() == evaluations_before) return;
-      const EvaluatedDesign best = evaluator_.best().value_or(EvaluatedDesign{});
+      if (evaluator.evaluations() == evaluations_before) return;
+      const EvaluatedDesign best = evaluator.best().value_or(EvaluatedDesign{});
       if (all_compared && !is_better(best, before)) return;
       before = best;
     }
@@ -100,40 +98,39 @@ class ChainedSearch {
   /// The stages that evaluated anything.
   std::vector<SearchStage> stages() const {
     std::vector<SearchStage> stages;
-    for (std::size_t i = 0; i < begun_.size(); ++i) {
-      const int end = i + 1 < begun_.size() ? begun_[i + 1].evaluations : evaluator_.evaluations();
-      const auto& [name, begin] = begun_[i];
+    for (std::size_t i = 0; i < begun.size(); ++i) {
+      const int end = i + 1 < begun.size() ? begun[i + 1].evaluations : evaluator.evaluations();
+      const auto& [name, begin] = begun[i];
       if (end > begin) stages.push_back({name, end - begin});
     }
     return stages;
   }
 
- private:
   void begin_stage(std::string name) {
-    begun_.push_back({std::move(name), evaluator_.evaluations()});
+    begun.push_back({std::move(name), evaluator.evaluations()});
   }
 
   SearchPoint best_point() const {
-    return evaluator_.best() ? evaluator_.best()->point : starts_.front();
+    return evaluator.best() ? evaluator.best()->point : starts.front();
   }
 
   void search_globally() {
     const auto other_slices = static_cast<int>(neighbours(best_point()).size());
     const int compared = std::min(other_slices, affordable_neighbours());
-    const int share = static_cast<int>(global_share * (evaluator_.evaluations_left() - compared));
-    if (method_.global.empty() || share < 1) return;
-    begin_stage(method_.global);
-    const bool first_round = round_ == 0;
-    const StageOptions options{.max_evaluations = share, .seed = seed_ + round_++};
-    if (method_.global == dlib_name) {
-      minimize_with_dlib(evaluator_, {best_point()}, options);
-    } else if (method_.global == "direct_l" && !first_round) {
+    const int share = static_cast<int>(global_share * (evaluator.evaluations_left() - compared));
+    if (method.global.empty() || share < 1) return;
+    begin_stage(method.global);
+    const bool first_round = round == 0;
+    const StageOptions options{.max_evaluations = share, .seed = seed + round++};
+    if (method.global == dlib_name) {
+      minimize_with_dlib(evaluator, {best_point()}, options);
+    } else if (method.global == "direct_l" && !first_round) {
       // direct_l itself would divide the same boxes further, round the same lowest point. With 1000
       // evaluations of Hartmann's function in shifted boxes the search with it ended in the lowest
       // region 12 times of 20, so it did 19 times.
-      minimize("direct_l_rand", evaluator_, best_point(), options);
+      minimize("direct_l_rand", evaluator, best_point(), options);
     } else {
-      minimize(method_.global, evaluator_, best_point(), options);
+      minimize(method.global, evaluator, best_point(), options);
     }
   }
 
@@ -141,11 +138,11 @@ class ChainedSearch {
   /// with what they share with this one.
   std::vector<SearchPoint> neighbours(const SearchPoint& point) const {
     std::vector<SearchPoint> neighbours;
-    for (int other = 0; other < static_cast<int>(evaluator_.sub_spaces().size()); ++other) {
+    for (int other = 0; other < static_cast<int>(evaluator.sub_spaces().size()); ++other) {
       if (other != point.sub_space) neighbours.push_back(moved_to_sub_space(point, other));
     }
     Eigen::Index i = 0;
-    for (const Variable& variable : evaluator_.variables_of(point)) {
+    for (const Variable& variable : evaluator.variables_of(point)) {
       if (!variable.is_continuous()) {
         for (const double value : variable.outstanding_values()) {
           if (value == point.x[i]) continue;
@@ -160,9 +157,9 @@ class ChainedSearch {
 
   /// The same values for variables of the same names, and those of the centre for others.
   SearchPoint moved_to_sub_space(const SearchPoint& point, int sub_space) const {
-    SearchPoint moved = centre_of(evaluator_.sub_spaces(), sub_space);
-    const std::vector<Variable>& from = evaluator_.variables_of(point);
-    const std::vector<Variable>& to = evaluator_.variables_of(moved);
+    SearchPoint moved = centre_of(evaluator.sub_spaces(), sub_space);
+    const std::vector<Variable>& from = evaluator.variables_of(point);
+    const std::vector<Variable>& to = evaluator.variables_of(moved);
     for (std::size_t i = 0; i < to.size(); ++i) {
       const auto same = std::ranges::find(from, to[i].name, &Variable::name);
       if (same != from.end()) moved.x[Eigen::Index(i)] = point.x[same - from.begin()];
@@ -172,7 +169,7 @@ class ChainedSearch {
 
   int affordable_neighbours() const {
     return std::max(neighbours_always_compared,
-                    static_cast<int>(neighbour_share * evaluator_.evaluations_left()));
+                    static_cast<int>(neighbour_share * evaluator.evaluations_left()));
   }
 
   /// @return false where there were too many new ones to compare all
@@ -182,61 +179,54 @@ class ChainedSearch {
     // What is known already costs nothing.
     const auto unknown = std::stable_partition(
         points.begin(), points.end(),
-        [&](const SearchPoint& point) { return evaluator_.was_evaluated(point); });
+        [&](const SearchPoint& point) { return evaluator.was_evaluated(point); });
     const auto first_new = static_cast<std::size_t>(unknown - points.begin());
     const std::size_t affordable = first_new + static_cast<std::size_t>(affordable_neighbours());
     const bool all = points.size() <= affordable;
     if (!all) {
-      boost::random::mt19937_64 generator(seed_ +
-                                          static_cast<std::uint64_t>(evaluator_.evaluations()));
+      boost::random::mt19937_64 generator(seed +
+                                          static_cast<std::uint64_t>(evaluator.evaluations()));
       for (std::size_t i = first_new; i < affordable; ++i) {
         const boost::random::uniform_int_distribution<std::size_t> any_left(i, points.size() - 1);
         std::swap(points[i], points[any_left(generator)]);
       }
       points.resize(affordable);
     }
-    evaluator_.evaluate(points);
+    evaluator.evaluate(points);
     return all;
   }
 
   /// Successive halving. A slice that stays in is resumed rather than begun again: minimize replays
   /// the same path through the cache.
   void refine() {
-    const std::string& algorithm = method_.local.empty() ? method_.global : method_.local;
+    const std::string& algorithm = method.local.empty() ? method.global : method.local;
     begin_stage(algorithm);
-    std::vector<SearchPoint> starts;
-    for (const EvaluatedDesign& best : evaluator_.best_of_slices()) starts.push_back(best.point);
-    if (starts.empty()) starts.push_back(best_point());
+    std::vector<SearchPoint> kept;
+    for (const EvaluatedDesign& best : evaluator.best_of_slices()) kept.push_back(best.point);
+    if (kept.empty()) kept.push_back(best_point());
     const std::size_t affordable =
-        1 + static_cast<std::size_t>(evaluator_.evaluations_left() / evaluations_per_refined_slice);
-    if (starts.size() > affordable) starts.resize(affordable);
+        1 + static_cast<std::size_t>(evaluator.evaluations_left() / evaluations_per_refined_slice);
+    if (kept.size() > affordable) kept.resize(affordable);
 
     for (;;) {
       int rounds = 1;
-      for (std::size_t count = starts.size(); count > 1; count = (count + 1) / 2) ++rounds;
-      const int share = evaluator_.evaluations_left() / (rounds * static_cast<int>(starts.size()));
-      for (const SearchPoint& start : starts) {
-        minimize(algorithm, evaluator_, start,
-                 {.max_evaluations = std::max(1, share), .seed = seed_});
+      for (std::size_t count = kept.size(); count > 1; count = (count + 1) / 2) ++rounds;
+      const int share = evaluator.evaluations_left() / (rounds * static_cast<int>(kept.size()));
+      for (const SearchPoint& start : kept) {
+        minimize(algorithm, evaluator, start,
+                 {.max_evaluations = std::max(1, share), .seed = seed});
       }
-      if (starts.size() == 1) return;
-      std::ranges::stable_sort(starts, [&](const SearchPoint& a, const SearchPoint& b) {
+      if (kept.size() == 1) return;
+      std::ranges::stable_sort(kept, [&](const SearchPoint& a, const SearchPoint& b) {
         return is_better(best_of_slice(a), best_of_slice(b));
       });
-      starts.resize((starts.size() + 1) / 2);
+      kept.resize((kept.size() + 1) / 2);
     }
   }
 
   EvaluatedDesign best_of_slice(const SearchPoint& point) const {
-    return evaluator_.best_of_slice(point).value_or(EvaluatedDesign{});
+    return evaluator.best_of_slice(point).value_or(EvaluatedDesign{});
   }
-
-  Evaluator& evaluator_;
-  SearchMethod method_;
-  std::vector<SearchPoint> starts_;
-  std::uint64_t seed_;
-  std::uint64_t round_ = 0;
-  std::vector<SearchStage> begun_;  ///< with the evaluations before each
 };
 
 }  // namespace
@@ -275,30 +265,16 @@ SearchResult search(Problem& problem, const SearchOptions& options) {
   Evaluator evaluator(problem, options.evaluation);
   std::vector<SearchPoint> starts = options.starts;
   if (starts.empty()) starts.push_back(centre_of(evaluator.sub_spaces(), 0));
-  ChainedSearch chain(evaluator, search_method(options.optimizer, evaluator.sub_spaces()), starts,
-                      options.seed);
+  ChainedSearch chain{evaluator, search_method(options.optimizer, evaluator.sub_spaces()), starts,
+                      options.seed};
 
-  SearchResult result;
-  try {
-    chain.run();
-    // A round that ends with the last evaluation does not know what one more would have found.
-    result.termination = evaluator.evaluations() < options.evaluation.budget
-                             ? Termination::converged
-                             : Termination::budget_exhausted;
-  } catch (const SearchStopped& stopped) {
-    result.termination = stopped.termination;
+  SearchOutcome outcome = evaluator.outcome_of([&] { chain.run(); });
+  // A round that ends with the last evaluation does not know what one more would have found.
+  if (outcome.termination == Termination::converged &&
+      outcome.evaluations == options.evaluation.budget) {
+    outcome.termination = Termination::budget_exhausted;
   }
-  if (!evaluator.best() && evaluator.failures() > 0) {
-    throw SearchFailed(fmt::format("the search failed: all {} evaluations failed, the last with {}",
-                                   evaluator.evaluations(), evaluator.last_failure()));
-  }
-  result.best = evaluator.best();
-  result.best_designs = evaluator.best_designs(designs_reported);
-  result.evaluations = evaluator.evaluations();
-  result.failures = evaluator.failures();
-  result.cache_hits = evaluator.cache_hits();
-  result.stages = chain.stages();
-  return result;
+  return {outcome, evaluator.best(), evaluator.best_designs(designs_reported), chain.stages()};
 }
 
 }  // namespace nlcwfs

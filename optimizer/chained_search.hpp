@@ -43,15 +43,11 @@ struct SearchStage {
 };
 
 /// What a search found.
-struct SearchResult {
+struct SearchResult : SearchOutcome {
   /// The best design; nothing where the search was stopped before its first evaluation.
   std::optional<EvaluatedDesign> best;
   /// The best designs that differ (see Evaluator::best_designs), at most 5, best first.
   std::vector<EvaluatedDesign> best_designs;
-  Termination termination = Termination::stop_requested;  ///< why the search ended
-  int evaluations = 0;                                    ///< designs that were tried
-  int failures = 0;                                       ///< evaluations without a cost
-  int cache_hits = 0;               ///< designs asked for again, which cost nothing
   std::vector<SearchStage> stages;  ///< in order; their evaluations sum to `evaluations`
 };
 

@@ -70,13 +70,14 @@ struct Box {
 };
 
 /// One run, which counts what it may still evaluate and knows its worst real cost.
-class DlibRun {
- public:
-  DlibRun(Evaluator& evaluator, int max_evaluations)
-      : evaluator_(evaluator), max_evaluations_(max_evaluations) {}
+struct DlibRun {
+  Evaluator& evaluator;
+  int max_evaluations;
+  int first_evaluation = evaluator.evaluations();
+  double worst = -std::numeric_limits<double>::infinity();
 
-  int evaluations() const { return evaluator_.evaluations() - first_evaluation_; }
-  bool is_over() const { return evaluations() >= max_evaluations_; }
+  int evaluations() const { return evaluator.evaluations() - first_evaluation; }
+  bool is_over() const { return evaluations() >= max_evaluations; }
 
   /// The answers to the points, or to the first of them where there are too many new ones.
   std::vector<double> ask(const std::vector<SearchPoint>& points) {
@@ -84,27 +85,21 @@ class DlibRun {
     while (answers.size() < points.size() && !is_over()) {
       const auto begin = points.begin() + static_cast<std::ptrdiff_t>(answers.size());
       const auto count =
-          std::min<std::ptrdiff_t>(points.end() - begin, max_evaluations_ - evaluations());
-      const std::vector<double> more = evaluator_.evaluate({begin, begin + count});
+          std::min<std::ptrdiff_t>(points.end() - begin, max_evaluations - evaluations());
+      const std::vector<double> more = evaluator.evaluate({begin, begin + count});
       answers.insert(answers.end(), more.begin(), more.end());
     }
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      const std::optional<EvaluatedDesign> design = evaluator_.known(points[i]);
-      if (design && design->violation == 0.0) worst_ = std::max(worst_, design->cost);
+      const std::optional<EvaluatedDesign> design = evaluator.known(points[i]);
+      if (design && design->violation == 0.0) worst = std::max(worst, design->cost);
     }
     return answers;
   }
 
   /// What dlib, which maximises, is told.
   double told(double answer) const {
-    return -(std::isfinite(worst_) ? std::min(answer, worst_) : answer);
+    return -(std::isfinite(worst) ? std::min(answer, worst) : answer);
   }
-
- private:
-  Evaluator& evaluator_;
-  int max_evaluations_;
-  int first_evaluation_ = evaluator_.evaluations();
-  double worst_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
@@ -130,7 +125,7 @@ StageResult minimize_with_dlib(Evaluator& evaluator, const std::vector<SearchPoi
     return boxes[static_cast<std::size_t>(point.sub_space)];
   };
 
-  DlibRun run(evaluator, options.max_evaluations);
+  DlibRun run{evaluator, options.max_evaluations};
   const std::vector<double> first_answers = run.ask(points);
   if (run.is_over()) return {run.evaluations(), false};
   std::vector<std::vector<dlib::function_evaluation>> first_evaluations(boxes.size());

@@ -4,12 +4,12 @@
 #include "optimizer/all_at_once.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,9 +27,8 @@ constexpr std::size_t batch_size = 8;
 /// In fractions of a variable's range.
 constexpr double distinct_design_distance = 0.02;
 
-double seconds_between(std::chrono::steady_clock::time_point start,
-                       std::chrono::steady_clock::time_point end) {
-  return std::chrono::duration<double>(end - start).count();
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 double mean(const std::vector<double>& values) {
@@ -39,21 +38,11 @@ double mean(const std::vector<double>& values) {
 }  // namespace
 
 std::string_view to_string(Termination termination) {
-  switch (termination) {
-    case Termination::converged:
-      return "converged";
-    case Termination::target_reached:
-      return "target_reached";
-    case Termination::stagnated:
-      return "stagnated";
-    case Termination::budget_exhausted:
-      return "budget_exhausted";
-    case Termination::time_limit:
-      return "time_limit";
-    case Termination::stop_requested:
-      return "stop_requested";
-  }
-  return "";
+  // In the order of the enumerators.
+  constexpr std::array<std::string_view, 6> names{"converged",  "target_reached",
+                                                  "stagnated",  "budget_exhausted",
+                                                  "time_limit", "stop_requested"};
+  return names.at(static_cast<std::size_t>(termination));
 }
 
 Evaluator::Evaluator(Problem& problem, EvaluatorOptions options)
@@ -163,7 +152,7 @@ std::vector<EvaluatedDesign> Evaluator::best_designs(int count) const {
 int Evaluator::evaluations_left() const {
   const int budget_left = options_.budget - evaluations_;
   if (!options_.time_limit || evaluations_ == 0) return budget_left;
-  const double seconds = seconds_since_start();
+  const double seconds = seconds_since(start_);
   const double affordable = (*options_.time_limit - seconds) * evaluations_ / seconds;
   return affordable < budget_left ? std::max(0, static_cast<int>(affordable)) : budget_left;
 }
@@ -219,7 +208,7 @@ void Evaluator::assess(Evaluation& evaluation, const std::optional<Race>& race) 
   } catch (...) {
     record.failure = "exception of an unknown type";
   }
-  record.seconds = seconds_between(start, std::chrono::steady_clock::now());
+  record.seconds = seconds_since(start);
 }
 
 void Evaluator::commit(Evaluation& evaluation) {
@@ -280,13 +269,9 @@ bool Evaluator::is_close(const SearchPoint& a, const SearchPoint& b) const {
   return true;
 }
 
-double Evaluator::seconds_since_start() const {
-  return seconds_between(start_, std::chrono::steady_clock::now());
-}
-
 int Evaluator::allowed_evaluations(int wanted) const {
   const bool is_stopped = options_.stop.stop_requested();
-  const bool is_late = options_.time_limit && seconds_since_start() >= *options_.time_limit;
+  const bool is_late = options_.time_limit && seconds_since(start_) >= *options_.time_limit;
   if (evaluations_ == 0 && (is_stopped || is_late)) return 1;
   if (is_stopped) throw SearchStopped(Termination::stop_requested);
   if (options_.target && best_ && best_->violation == 0.0 && best_->cost <= *options_.target) {
@@ -303,6 +288,24 @@ int Evaluator::allowed_evaluations(int wanted) const {
 std::optional<Race> Evaluator::race() const {
   if (options_.race_significance == 0.0 || !best_ || best_->violation > 0.0) return std::nullopt;
   return Race(best_costs_, options_.race_significance);
+}
+
+SearchOutcome Evaluator::outcome_of(const std::function<void()>& run) {
+  SearchOutcome outcome;
+  try {
+    run();
+    outcome.termination = Termination::converged;
+  } catch (const SearchStopped& stopped) {
+    outcome.termination = stopped.termination;
+  }
+  if (!best_ && failures() > 0) {
+    throw SearchFailed(fmt::format("the search failed: all {} evaluations failed, the last with {}",
+                                   evaluations_, last_failure_));
+  }
+  outcome.evaluations = evaluations_;
+  outcome.failures = failures();
+  outcome.cache_hits = cache_hits_;
+  return outcome;
 }
 
 double Evaluator::penalty() const {

@@ -83,9 +83,16 @@ struct SearchStopped : std::exception {
 
 /// A search that cannot go on: evaluations fail one after the other, or the problem throws it.
 /// Names the last reason.
-class SearchFailed : public std::runtime_error {
- public:
+struct SearchFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// How a search ended.
+struct SearchOutcome {
+  Termination termination = Termination::stop_requested;  ///< why
+  int evaluations = 0;                                    ///< designs that were tried
+  int failures = 0;                                       ///< evaluations without a cost
+  int cache_hits = 0;  ///< designs asked for again, which cost nothing
 };
 
 /// The single owner of a search's budget, cache, best design, failures and stopping: every
@@ -124,13 +131,16 @@ class Evaluator {
     return sub_spaces_[static_cast<std::size_t>(point.sub_space)].variables;
   }
 
+  /// Runs a search that asks this evaluator until it converges or is stopped.
+  /// @throws SearchFailed where no design has a cost, and whatever the search throws
+  SearchOutcome outcome_of(const std::function<void()>& run);
+
   /// Designs that were tried, failures included.
   int evaluations() const { return evaluations_; }
   /// Designs that could not be tried.
   int failures() const { return failure_count_.failures(); }
   /// Points whose design had been tried already.
   int cache_hits() const { return cache_hits_; }
-  const std::string& last_failure() const { return last_failure_; }  ///< empty without any
 
   /// How many more evaluations there will be: what is left of the budget, or fewer where the time
   /// limit, at the mean time per evaluation so far, comes first.
@@ -178,7 +188,6 @@ class Evaluator {
   void commit(Evaluation& evaluation);
   Slice slice_of(const SearchPoint& point) const;
   bool is_close(const SearchPoint& a, const SearchPoint& b) const;
-  double seconds_since_start() const;
   /// @throws SearchStopped where none is allowed
   int allowed_evaluations(int wanted) const;
   std::optional<Race> race() const;

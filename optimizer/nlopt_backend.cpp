@@ -1,13 +1,12 @@
 // NLopt's algorithms, global and local.
 #include "optimizer/nlopt_backend.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <exception>
 #include <memory>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,17 +37,16 @@ constexpr std::array algorithms{
 };
 
 const Algorithm& find_algorithm(std::string_view name, int variable_count) {
-  for (const Algorithm& algorithm : algorithms) {
-    if (algorithm.name == name) {
-      if (variable_count >= algorithm.least_variables) return algorithm;
-      throw std::invalid_argument(
-          fmt::format("{} needs at least {} continuous variable{}, this problem has {}: take {}",
-                      name, algorithm.least_variables, algorithm.least_variables == 1 ? "" : "s",
-                      variable_count, variable_count == 0 ? "dlib" : "sbplx"));
-    }
+  const auto* const found = std::ranges::find(algorithms, name, &Algorithm::name);
+  if (found == algorithms.end()) {
+    throw std::invalid_argument(fmt::format("{} is no optimizer: there are dlib, {}", name,
+                                            fmt::join(nlopt_algorithms(), ", ")));
   }
-  throw std::invalid_argument(fmt::format("{} is no optimizer: there are dlib, {}", name,
-                                          fmt::join(nlopt_algorithms(), ", ")));
+  if (variable_count >= found->least_variables) return *found;
+  throw std::invalid_argument(
+      fmt::format("{} needs at least {} continuous variable{}, this problem has {}: take {}", name,
+                  found->least_variables, found->least_variables == 1 ? "" : "s", variable_count,
+                  variable_count == 0 ? "dlib" : "sbplx"));
 }
 
 using NloptPointer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
@@ -102,7 +100,6 @@ struct Objective {
 
 std::vector<std::string_view> nlopt_algorithms() {
   std::vector<std::string_view> names;
-  names.reserve(std::size(algorithms));
   for (const Algorithm& algorithm : algorithms) names.push_back(algorithm.name);
   return names;
 }

@@ -34,11 +34,9 @@ constexpr double penalty_of_failure = 1e102;
 
 std::vector<double> compared_objectives(const std::optional<EvaluatedDesign>& design,
                                         std::size_t count) {
-  std::vector<double> penalties(count, penalty_of_failure);
-  if (!design) return penalties;
+  if (!design) return std::vector<double>(count, penalty_of_failure);
   if (design->violation > 0.0) {
-    penalties.assign(count, penalty_of_violation(design->violation));
-    return penalties;
+    return std::vector<double>(count, penalty_of_violation(design->violation));
   }
   assert(design->objectives.size() == count);
   return design->objectives;
@@ -85,29 +83,17 @@ class SubSpaceCoding {
   GenerationSpace space_;
 };
 
-/// The designs of a front so far.
-class Front {
- public:
-  void add(const EvaluatedDesign& design) {
-    const auto dominates = [](const EvaluatedDesign& a, const EvaluatedDesign& b) {
-      return pagmo::pareto_dominance(a.objectives, b.objectives);
-    };
-    for (const EvaluatedDesign& other : designs_) {
-      if (other.objectives == design.objectives || dominates(other, design)) return;
-    }
-    std::erase_if(designs_, [&](const EvaluatedDesign& other) { return dominates(design, other); });
-    designs_.push_back(design);
+/// @param front  the designs so far that no other dominates
+void add_to_front(std::vector<EvaluatedDesign>& front, const EvaluatedDesign& design) {
+  const auto dominates = [](const EvaluatedDesign& a, const EvaluatedDesign& b) {
+    return pagmo::pareto_dominance(a.objectives, b.objectives);
+  };
+  for (const EvaluatedDesign& other : front) {
+    if (other.objectives == design.objectives || dominates(other, design)) return;
   }
-
-  std::vector<EvaluatedDesign> sorted() const {
-    std::vector<EvaluatedDesign> designs = designs_;
-    std::ranges::sort(designs, {}, &EvaluatedDesign::objectives);
-    return designs;
-  }
-
- private:
-  std::vector<EvaluatedDesign> designs_;
-};
+  std::erase_if(front, [&](const EvaluatedDesign& other) { return dominates(design, other); });
+  front.push_back(design);
+}
 
 /// One sub-space's search.
 struct Island {
@@ -117,24 +103,24 @@ struct Island {
 };
 
 /// One search under way.
-class ParetoSearch {
- public:
-  ParetoSearch(Evaluator& evaluator, const ParetoOptions& options)
-      : evaluator_(evaluator), options_(options), generator_(options.seed) {}
+struct ParetoSearch {
+  Evaluator& evaluator;
+  const ParetoOptions& options;
+  boost::random::mt19937_64 generator{options.seed};
 
   /// Returns where no population brings forth new designs. @throws SearchStopped at a limit
   void run() {
-    const auto sub_space_count = static_cast<int>(evaluator_.sub_spaces().size());
+    const auto sub_space_count = static_cast<int>(evaluator.sub_spaces().size());
     // All of them first: how many objectives there are is known once a design has any.
     std::vector<std::vector<SearchPoint>> first;
     for (int i = 0; i < sub_space_count; ++i) {
       first.push_back(first_population(i));
-      evaluator_.evaluate(first.back());
+      evaluator.evaluate(first.back());
     }
-    for (int i = 0; !evaluator_.best() && i < known_generations_allowed; ++i) {
-      evaluator_.evaluate(first_population(0));
+    for (int i = 0; !evaluator.best() && i < known_generations_allowed; ++i) {
+      evaluator.evaluate(first_population(0));
     }
-    if (!evaluator_.best()) return;
+    if (!evaluator.best()) return;
     std::vector<Island> islands;
     islands.reserve(first.size());
     for (int i = 0; i < sub_space_count; ++i) {
@@ -142,15 +128,15 @@ class ParetoSearch {
     }
     while (!islands.empty()) {
       for (Island& island : islands) {
-        const int before = evaluator_.evaluations();
+        const int before = evaluator.evaluations();
         std::vector<SearchPoint> points;
         for (const auto& x : island.algorithm->propose()) {
           points.push_back(island.coding.to_point(x));
         }
-        evaluator_.evaluate(points);
+        evaluator.evaluate(points);
         island.algorithm->accept(generation(island.coding, points));
         island.known_generations =
-            evaluator_.evaluations() == before ? island.known_generations + 1 : 0;
+            evaluator.evaluations() == before ? island.known_generations + 1 : 0;
       }
       std::erase_if(islands, [](const Island& island) {
         return island.known_generations >= known_generations_allowed;
@@ -158,13 +144,12 @@ class ParetoSearch {
     }
   }
 
- private:
   std::vector<SearchPoint> first_population(int sub_space) {
     std::vector<SearchPoint> points =
-        latin_hypercube(evaluator_.sub_spaces()[static_cast<std::size_t>(sub_space)], sub_space,
-                        options_.population, generator_);
+        latin_hypercube(evaluator.sub_spaces()[static_cast<std::size_t>(sub_space)], sub_space,
+                        options.population, generator);
     auto place = points.begin();
-    for (const SearchPoint& start : options_.starts) {
+    for (const SearchPoint& start : options.starts) {
       if (start.sub_space == sub_space && place != points.end()) *place++ = start;
     }
     return points;
@@ -172,28 +157,23 @@ class ParetoSearch {
 
   /// Evaluated designs as the algorithms see them.
   Generation generation(const SubSpaceCoding& coding, const std::vector<SearchPoint>& points) {
-    const std::size_t objectives = evaluator_.best()->objectives.size();
+    const std::size_t objectives = evaluator.best()->objectives.size();
     assert(objectives >= 2);
     Generation generation;
     for (const SearchPoint& point : points) {
       generation.x.push_back(coding.from_point(point));
-      generation.objectives.push_back(compared_objectives(evaluator_.known(point), objectives));
+      generation.objectives.push_back(compared_objectives(evaluator.known(point), objectives));
     }
     return generation;
   }
 
   Island island(int sub_space, const std::vector<SearchPoint>& points) {
-    SubSpaceCoding coding(evaluator_.sub_spaces()[static_cast<std::size_t>(sub_space)], sub_space,
-                          options_.algorithm == "nsga2");
-    auto algorithm =
-        pareto_algorithm(options_.algorithm, coding.space(), generation(coding, points),
-                         static_cast<unsigned>(generator_()));
+    SubSpaceCoding coding(evaluator.sub_spaces()[static_cast<std::size_t>(sub_space)], sub_space,
+                          options.algorithm == "nsga2");
+    auto algorithm = pareto_algorithm(options.algorithm, coding.space(), generation(coding, points),
+                                      static_cast<unsigned>(generator()));
     return {std::move(coding), std::move(algorithm), 0};
   }
-
-  Evaluator& evaluator_;
-  const ParetoOptions& options_;
-  boost::random::mt19937_64 generator_;
 };
 
 }  // namespace
@@ -210,35 +190,25 @@ ParetoResult pareto_search(Problem& problem, const ParetoOptions& options) {
         fmt::format("a population of {} does not suit {}: take a multiple of 4, at least 8",
                     options.population, options.algorithm));
   }
-  Front front;
+  std::vector<EvaluatedDesign> front;
   EvaluatorOptions evaluation = options.evaluation;
   evaluation.target.reset();
   evaluation.stagnation = 0;
   evaluation.race_significance = 0.0;
   evaluation.observer = [&](const EvaluationRecord& record) {
     if (record.failure.empty() && record.violation == 0.0) {
-      front.add({record.point, record.key, record.cost, record.violation, record.objectives});
+      add_to_front(front,
+                   {record.point, record.key, record.cost, record.violation, record.objectives});
     }
     if (options.evaluation.observer) options.evaluation.observer(record);
   };
   Evaluator evaluator(problem, std::move(evaluation));
 
-  ParetoResult result;
-  try {
-    ParetoSearch(evaluator, options).run();
-    result.termination = Termination::converged;
-  } catch (const SearchStopped& stopped) {
-    result.termination = stopped.termination;
-  }
-  if (!evaluator.best() && evaluator.failures() > 0) {
-    throw SearchFailed(fmt::format("the search failed: all {} evaluations failed, the last with {}",
-                                   evaluator.evaluations(), evaluator.last_failure()));
-  }
-  result.front = front.sorted();
-  result.evaluations = evaluator.evaluations();
-  result.failures = evaluator.failures();
-  result.cache_hits = evaluator.cache_hits();
-  return result;
+  const SearchOutcome outcome = evaluator.outcome_of([&] {
+    ParetoSearch{evaluator, options}.run();
+  });
+  std::ranges::sort(front, {}, &EvaluatedDesign::objectives);
+  return {outcome, std::move(front)};
 }
 
 std::vector<bool> dominated(const std::vector<std::vector<double>>& objectives) {
@@ -279,11 +249,9 @@ double hypervolume(const std::vector<EvaluatedDesign>& front,
   std::vector<std::vector<double>> points;
   for (const EvaluatedDesign& design : front) {
     assert(design.objectives.size() == reference.size());
-    bool dominates = true;
-    for (std::size_t i = 0; i < reference.size(); ++i) {
-      dominates = dominates && design.objectives[i] < reference[i];
+    if (std::ranges::equal(design.objectives, reference, std::less())) {
+      points.push_back(design.objectives);
     }
-    if (dominates) points.push_back(design.objectives);
   }
   return points.empty() ? 0.0 : pagmo::hypervolume(points).compute(reference);
 }
@@ -292,16 +260,12 @@ std::size_t knee(const std::vector<EvaluatedDesign>& front) {
   assert(!front.empty());
   std::vector<double> sums(front.size(), 0.0);
   for (std::size_t i = 0; i < front.front().objectives.size(); ++i) {
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -lowest;
-    for (const EvaluatedDesign& design : front) {
-      lowest = std::min(lowest, design.objectives[i]);
-      highest = std::max(highest, design.objectives[i]);
-    }
-    if (highest == lowest) continue;
-    for (std::size_t j = 0; j < front.size(); ++j) {
-      sums[j] += (front[j].objectives[i] - lowest) / (highest - lowest);
-    }
+    const auto objective = [i](const EvaluatedDesign& design) { return design.objectives[i]; };
+    const double lowest = objective(*std::ranges::min_element(front, {}, objective));
+    const double range = objective(*std::ranges::max_element(front, {}, objective)) - lowest;
+    if (range == 0.0) continue;
+    for (std::size_t j = 0; j < front.size(); ++j)
+      sums[j] += (objective(front[j]) - lowest) / range;
   }
   return static_cast<std::size_t>(std::ranges::min_element(sums) - sums.begin());
 }

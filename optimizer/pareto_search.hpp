@@ -23,15 +23,11 @@ struct ParetoOptions {
 };
 
 /// What a search for several objectives found.
-struct ParetoResult {
+struct ParetoResult : SearchOutcome {
   /// The designs that keep the limits and that no other design evaluated dominates: none is as good
   /// in all objectives and better in one. In ascending order of their objectives, the first one
   /// first. One design for equal objectives.
   std::vector<EvaluatedDesign> front;
-  Termination termination = Termination::stop_requested;  ///< why the search ended
-  int evaluations = 0;                                    ///< designs that were tried
-  int failures = 0;                                       ///< evaluations without a cost
-  int cache_hits = 0;  ///< designs asked for again, which cost nothing
 };
 
 /// Minimises all objectives of a problem (Assessment::objectives, two or more) at once. Each
