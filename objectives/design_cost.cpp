@@ -64,10 +64,7 @@ double DesignCost::violation(const Performance& performance, const SensorDesign&
 }
 
 void DesignCost::validate() const {
-  ScreenPerformance screen;
-  screen.loops = 1;
-  screen.captured_energy = {1.0};
-  const Performance any{{screen}};
+  const Performance any{{any_screen()}};
   (void)per_screen(any, {}, 1.0);
   (void)violation(any, {}, 1.0);
 }

@@ -51,6 +51,9 @@ struct DesignMetric {
   void validate(const Operation& operation) const;
 };
 
+/// What a metric can be tried on, of a design that might be.
+ScreenPerformance any_screen();
+
 /// Every figure of merit that a cost, a limit or a trade may be made of: performance_metrics(),
 /// of which `seconds` is measured, so that costs with it are not repeatable, and
 ///

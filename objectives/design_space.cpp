@@ -2,11 +2,9 @@
 #include "objectives/design_space.hpp"
 
 #include "model/bound_text.hpp"
-#include "model/grid_width.hpp"
 #include "model/input_error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <iterator>
@@ -89,19 +87,13 @@ void require_distances(const std::string& key, const Domain& domain, bool both_s
 void require_property(const std::string& key, const Domain& domain, const DesignField& property) {
   const auto* range = std::get_if<ValueRange>(&domain);
   if (range == nullptr) return;
-  if (property.kind == VariableKind::categorical) {
-    throw InputError(key, text_of(*range), "a list of its words");
-  }
-  if (!(range->lower < range->upper)) {
-    throw InputError(key, text_of(*range), "min:max with min < max");
-  }
+  require(property.kind != VariableKind::categorical, key, text_of(*range), "a list of its words");
+  require(range->lower < range->upper, key, text_of(*range), "min:max with min < max");
   if (range->scale.value_or(property.scale) == Scale::logarithmic && !(range->lower > 0.0)) {
     throw InputError(key, text_of(*range), "above 0 on a logarithmic scale", "take min:max:linear");
   }
-  if (property.variable == "pupil_pixels") {
-    throw InputError(key, text_of(*range),
-                     "a list, such as 16,32,64: divisors of simulation.pupil_samples");
-  }
+  require(property.variable != "pupil_pixels", key, text_of(*range),
+          "a list, such as 16,32,64: divisors of simulation.pupil_samples");
 }
 
 bool is_pair_name(std::string_view name) { return std::ranges::count(pair_names, name) > 0; }
@@ -269,9 +261,8 @@ double rounded_window(double window, int samples) {
 DesignSpace::DesignSpace(const Telescope& telescope, DesignSpaceOptions options)
     : telescope_(telescope), options_(std::move(options)) {
   for (const int planes : options_.plane_counts) {
-    if (planes < 2 || planes > most_planes) {
-      throw InputError(key_of("plane_count"), planes, fmt::format("from 2 to {}", most_planes));
-    }
+    require(planes >= 2 && planes <= most_planes, key_of("plane_count"), planes,
+            fmt::format("from 2 to {}", most_planes));
     regions_.push_back(region_of(planes));
   }
   require_used_domains();
@@ -356,11 +347,9 @@ void DesignSpace::require_used_domains() const {
     const bool is_used = std::ranges::any_of(regions_, [&](const Region& region) {
       return std::ranges::count(region.distances(options_.layout), name) > 0;
     });
-    if (!is_used) {
-      throw InputError(key_of(name), text_of(domain.second),
-                       fmt::format("there are at most {} planes, see {}",
-                                   std::ranges::max(options_.plane_counts), key_of("plane_count")));
-    }
+    require(is_used, key_of(name), text_of(domain.second),
+            fmt::format("there are at most {} planes, see {}",
+                        std::ranges::max(options_.plane_counts), key_of("plane_count")));
   }
   if (options_.domains.contains("relaxation") && (options_.domains.contains("relaxation_start") ||
                                                   options_.domains.contains("relaxation_end"))) {
@@ -414,36 +403,24 @@ SensorDesign DesignSpace::design(const SearchPoint& point) const {
 }
 
 std::optional<SearchPoint> DesignSpace::point_of(const SensorDesign& design) const {
-  // What the design is called by: names of distances, with the order that goes with them.
-  struct Naming {
-    std::map<std::string, double, std::less<>> distances;
-    VisitingOrder order;
-  };
-  std::vector<Naming> namings;
   const auto planes = static_cast<int>(design.planes.size());
   const auto region = std::ranges::find(regions_, planes, &Region::planes);
   if (region == regions_.end()) return std::nullopt;
   const std::vector<std::string> names = region->distances(options_.layout);
-  const auto add_naming = [&](const std::vector<double>& distances, const VisitingOrder& order) {
-    Naming& naming = namings.emplace_back();
-    naming.order = order;
-    for (std::size_t i = 0; i < names.size(); ++i) naming.distances[names[i]] = distances[i];
-  };
-  if (options_.layout == Layout::free) {
-    add_naming(design.planes, {});
-  } else {
-    // Where the ranges overlap or are exchanged, the nearer pair may be the one called far.
-    for (const auto& [pairs, order] : symmetric_namings(design.planes)) add_naming(pairs, order);
-  }
+  // Where the ranges overlap or are exchanged, the nearer pair may be the one called far.
+  const std::vector<SymmetricPlanes> namings = options_.layout == Layout::free
+                                                   ? std::vector{SymmetricPlanes{design.planes, {}}}
+                                                   : symmetric_namings(design.planes);
 
-  const auto value_of = [&](const Naming& naming, const std::string& name) {
+  const auto value_of = [&](const SymmetricPlanes& naming, const std::string& name) {
     if (name == "order") {
       return double(std::ranges::find(region->orders, naming.order) - region->orders.begin());
     }
     if (const DesignField* property = find_design_property(name)) return property->get(design);
-    return naming.distances.at(name);
+    return naming.pairs.at(
+        static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
   };
-  for (const Naming& naming : namings) {
+  for (const SymmetricPlanes& naming : namings) {
     const bool fits = std::ranges::all_of(region->axes,
                                           [&](const Axis& axis) {
                                             return axis.holds(value_of(naming, axis.name));

@@ -46,14 +46,14 @@ struct LineResidual {
 class LineProblem {
  public:
   /// @param line  where the fit starts and what it changes
-  /// @param loss  must outlive the problem
+  /// @param loss  becomes the problem's
   LineProblem(std::span<const Point> points, double scale, Parameters& line,
-              ceres::LossFunction& loss)
-      : line_(line), problem_(options()) {
+              ceres::LossFunction* loss)
+      : line_(line) {
     for (const Point& point : points) {
       problem_.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<LineResidual, 1, 2>(new LineResidual{point, scale}),
-          &loss, line.data());
+          new ceres::AutoDiffCostFunction<LineResidual, 1, 2>(new LineResidual{point, scale}), loss,
+          line.data());
     }
   }
 
@@ -87,12 +87,6 @@ class LineProblem {
   }
 
  private:
-  static ceres::Problem::Options options() {
-    ceres::Problem::Options options;
-    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    return options;
-  }
-
   Parameters& line_;
   ceres::Problem problem_;
 };
@@ -118,11 +112,9 @@ double residual_scale(std::span<const Point> points, const Parameters& line) {
 LawLine fit_line(std::span<const Point> points) {
   Parameters line{};
   // Where the errors are understated this is all but a least absolute fit, which needs no scale.
-  ceres::SoftLOneLoss absolute(1.0);
-  LineProblem(points, 1.0, line, absolute).solve();
+  LineProblem(points, 1.0, line, new ceres::SoftLOneLoss(1.0)).solve();
   const double scale = residual_scale(points, line);
-  ceres::CauchyLoss cauchy(cauchy_constant);
-  LineProblem problem(points, scale, line, cauchy);
+  LineProblem problem(points, scale, line, new ceres::CauchyLoss(cauchy_constant));
   problem.solve();
 
   std::vector<double> sigmas;
@@ -135,14 +127,12 @@ LawLine fit_line(std::span<const Point> points) {
 }
 
 void require_positive(const std::string& key, double value) {
-  if (!(value > 0.0) || !std::isfinite(value)) throw InputError(key, value, "a number above 0");
+  require(value > 0.0 && std::isfinite(value), key, value, "a number above 0");
 }
 
 void validate(std::span<const ScalingDatum> data) {
-  if (data.size() < least_data) {
-    throw InputError("data", fmt::format("{} designs", data.size()),
-                     fmt::format("at least {}, or the law's error is unknown", least_data));
-  }
+  require(data.size() >= least_data, "data", fmt::format("{} designs", data.size()),
+          fmt::format("at least {}, or the law's error is unknown", least_data));
   std::set<double> conditions;
   for (std::size_t i = 0; i < data.size(); ++i) {
     require_positive(fmt::format("data[{}].d_over_r0", i), data[i].d_over_r0);
@@ -152,11 +142,10 @@ void validate(std::span<const ScalingDatum> data) {
       const std::string key = fmt::format("data[{}].{}", i, quantity.name);
       require_positive(key + ".mean", value.mean);
       const double relative = value.standard_error / value.mean;
-      if (!(relative >= least_relative_error && relative < 1.0)) {
-        throw InputError(key + ".standard_error", value.standard_error,
-                         fmt::format("at least {} of the mean, which is {}, and below it",
-                                     least_relative_error, value.mean));
-      }
+      require(relative >= least_relative_error && relative < 1.0, key + ".standard_error",
+              value.standard_error,
+              fmt::format("at least {} of the mean, which is {}, and below it",
+                          least_relative_error, value.mean));
     }
   }
   if (conditions.size() < least_conditions ||

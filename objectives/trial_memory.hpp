@@ -17,8 +17,7 @@ struct RememberedTrial {
 };
 
 /// A memory that cannot be read or written: no design is to blame, and the study cannot go on.
-class TrialMemoryFailed : public std::runtime_error {
- public:
+struct TrialMemoryFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -26,10 +25,7 @@ class TrialMemoryFailed : public std::runtime_error {
 /// with an interrupted one, or by another run. May be used by many threads.
 class TrialMemory {
  public:
-  TrialMemory() = default;
   virtual ~TrialMemory() = default;
-  TrialMemory(const TrialMemory&) = delete;
-  TrialMemory& operator=(const TrialMemory&) = delete;
 
   /// @param trial   DesignTrial::identity()
   /// @param design  exact_text()

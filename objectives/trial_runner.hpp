@@ -15,10 +15,7 @@ class DesignTrial;
 /// machines. May be used by many threads; a screen's result does not depend on who computes it.
 class TrialRunner {
  public:
-  TrialRunner() = default;
   virtual ~TrialRunner() = default;
-  TrialRunner(const TrialRunner&) = delete;
-  TrialRunner& operator=(const TrialRunner&) = delete;
 
   /// DesignTrial::simulate, done elsewhere. What it throws there is thrown here.
   /// @param watch  where it ends the trial, the first screens are returned, as many under each
