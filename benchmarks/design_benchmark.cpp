@@ -46,13 +46,13 @@ void unwrapping(benchmark::State& state, UnwrappingMethod method) {
 }
 
 /// The default design on the default 16 screens, none of whose images were made before.
-void design(benchmark::State& state, const SimulationOptions& options) {
+void design(benchmark::State& state, TruthModel truth, Precision precision) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
   double reconstruction_seconds = 0.0;
   while (state.KeepRunning()) {
     state.PauseTiming();
-    const Simulation simulation = default_simulation(options);
+    const Simulation simulation = default_simulation({.truth = truth, .precision = precision});
     state.ResumeTiming();
     const Performance performance = simulation.evaluate(SensorDesign());
     for (const ScreenPerformance& screen : performance.screens) {
@@ -77,17 +77,13 @@ BENCHMARK_CAPTURE(images, matched, TruthModel::matched)->Unit(benchmark::kMillis
 BENCHMARK_CAPTURE(unwrapping, quality_guided, UnwrappingMethod::quality_guided)
     ->Apply(pupil_pixels);
 BENCHMARK_CAPTURE(unwrapping, least_squares, UnwrappingMethod::least_squares)->Apply(pupil_pixels);
-BENCHMARK_CAPTURE(design, extended_double,
-                  {.truth = TruthModel::extended, .precision = Precision::double_precision})
+BENCHMARK_CAPTURE(design, extended_double, TruthModel::extended, Precision::double_precision)
     ->Apply(threads);
-BENCHMARK_CAPTURE(design, extended_single,
-                  {.truth = TruthModel::extended, .precision = Precision::single_precision})
+BENCHMARK_CAPTURE(design, extended_single, TruthModel::extended, Precision::single_precision)
     ->Apply(threads);
-BENCHMARK_CAPTURE(design, matched_double,
-                  {.truth = TruthModel::matched, .precision = Precision::double_precision})
+BENCHMARK_CAPTURE(design, matched_double, TruthModel::matched, Precision::double_precision)
     ->Apply(threads);
-BENCHMARK_CAPTURE(design, matched_single,
-                  {.truth = TruthModel::matched, .precision = Precision::single_precision})
+BENCHMARK_CAPTURE(design, matched_single, TruthModel::matched, Precision::single_precision)
     ->Apply(threads);
 
 }  // namespace

@@ -15,9 +15,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -110,21 +108,17 @@ std::vector<Outcome> outcomes_of(const Telescope& telescope, const SensorDesign&
   return outcomes;
 }
 
-/// Mean and standard error over the wavefronts.
+/// Mean and standard error over the wavefronts, in nm.
 template <class Metric>
-MeanAndError mean_of(const std::vector<Outcome>& outcomes, const Metric& metric) {
+std::string nanometres(const std::vector<Outcome>& outcomes, const Metric& metric) {
   std::vector<double> values(outcomes.size());
   std::ranges::transform(outcomes, values.begin(), metric);
-  return mean_and_standard_error(values);
-}
-
-std::string nanometres(const MeanAndError& value) {
-  return fmt::format("{:.2f} +- {:.2f}", 1e9 * value.mean, 1e9 * value.standard_error);
+  const auto [mean, error] = mean_and_standard_error(values);
+  return fmt::format("{:.2f} +- {:.2f}", 1e9 * mean, 1e9 * error);
 }
 
 void print_row(std::string_view planes, double d_over_r0, double photons,
                const std::vector<Outcome>& outcomes) {
-  const auto wrapped = [](const Outcome& outcome) { return outcome.wrapped_wfe; };
   const auto difference = [](const Outcome& outcome) {
     return outcome.unwrappings[1].residual_wfe - outcome.unwrappings[0].residual_wfe;
   };
@@ -139,9 +133,9 @@ void print_row(std::string_view planes, double d_over_r0, double photons,
       });
       return 100.0 * double(count) / double(outcomes.size());
     };
-    residual[method] = nanometres(mean_of(outcomes, [method](const Outcome& outcome) {
+    residual[method] = nanometres(outcomes, [method](const Outcome& outcome) {
       return outcome.unwrappings[method].residual_wfe;
-    }));
+    });
     any_off[method] = share_above(0.0);
     region_off[method] = share_above(0.01);
     const auto seconds = [method](const Outcome& outcome) {
@@ -151,8 +145,8 @@ void print_row(std::string_view planes, double d_over_r0, double photons,
   }
   fmt::print("| {} | {} | {} | {} | {} | {} | {:.0f} | {:.0f} | {:.1f} |\n", planes, d_over_r0,
              photons > 0.0 ? fmt::format("{:.0e}", photons) : "no noise",
-             nanometres(mean_of(outcomes, wrapped)), fmt::join(residual, " | "),
-             nanometres(mean_of(outcomes, difference)), fmt::join(any_off, " / "),
+             nanometres(outcomes, &Outcome::wrapped_wfe), fmt::join(residual, " | "),
+             nanometres(outcomes, difference), fmt::join(any_off, " / "),
              fmt::join(region_off, " / "), fmt::join(milliseconds, " / "));
   std::fflush(stdout);
 }
