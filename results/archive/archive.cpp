@@ -16,26 +16,6 @@
 namespace nlcwfs {
 namespace {
 
-struct Finalize {
-  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-};
-using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
-
-/// Null where SQLite refuses.
-Statement prepared(sqlite3* database, const char* sql) {
-  sqlite3_stmt* statement = nullptr;
-  sqlite3_prepare_v2(database, sql, -1, &statement, nullptr);
-  return Statement(statement);
-}
-
-/// Empty for NULL.
-std::string text_at(sqlite3_stmt* statement, int column) {
-  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement, column));
-  return text == nullptr
-             ? std::string()
-             : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(statement, column)));
-}
-
 /// Of the tables, as the file's user_version: 0 had no trials.
 constexpr int current_layout = 1;
 
@@ -62,14 +42,74 @@ bool has_journal_of_several(const std::filesystem::path& path) {
   });
 }
 
-void bind_text(sqlite3_stmt* statement, int parameter, const std::string& text) {
-  // SQLite stores an unbound parameter as NULL.
-  if (text.empty()) return;
-  sqlite3_bind_text(statement, parameter, text.data(), static_cast<int>(text.size()),
-                    SQLITE_STATIC);
-}
-
 }  // namespace
+
+/// What is done with the database. All of it fails with the archive's path.
+class Archive::Statement {
+ public:
+  /// @param action  "read" or "write to", for the message
+  /// @param values  of the parameters, until they are written; texts that are empty, and NaN, are
+  /// NULL
+  template <class... Values>
+  Statement(const Archive& archive, std::string_view action, const char* sql,
+            const Values&... values)
+      : archive_(archive), action_(action) {
+    sqlite3_stmt* statement = nullptr;
+    sqlite3_prepare_v2(archive.database_.get(), sql, -1, &statement, nullptr);
+    statement_.reset(statement);
+    if (!statement) archive.fail(action);
+    [[maybe_unused]] int parameter = 0;
+    (bind(++parameter, values), ...);
+  }
+
+  /// Goes on to the next row, or to the end; whether there is a row.
+  bool next() {
+    const int status = sqlite3_step(statement_.get());
+    if (status != SQLITE_ROW && status != SQLITE_DONE) archive_.fail(action_);
+    return status == SQLITE_ROW;
+  }
+  /// The same where there always is one.
+  void require_row() {
+    if (!next()) archive_.fail(action_);
+  }
+
+  /// Bytes or characters of the row; none for NULL.
+  template <class Bytes>
+  Bytes bytes(int column) const {
+    const auto* begin = static_cast<const typename Bytes::value_type*>(
+        sqlite3_column_blob(statement_.get(), column));
+    return {begin, begin + sqlite3_column_bytes(statement_.get(), column)};
+  }
+  std::string text(int column) const { return bytes<std::string>(column); }
+  /// NaN for NULL.
+  double number(int column) const {
+    return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL
+               ? std::numeric_limits<double>::quiet_NaN()
+               : sqlite3_column_double(statement_.get(), column);
+  }
+
+ private:
+  void bind(int parameter, std::string_view text) {
+    // SQLite stores an unbound parameter as NULL.
+    if (text.empty()) return;
+    sqlite3_bind_text(statement_.get(), parameter, text.data(), static_cast<int>(text.size()),
+                      SQLITE_STATIC);
+  }
+  void bind(int parameter, double number) {
+    sqlite3_bind_double(statement_.get(), parameter, number);
+  }
+  void bind(int parameter, const std::vector<std::uint8_t>& bytes) {
+    sqlite3_bind_blob(statement_.get(), parameter, bytes.data(), static_cast<int>(bytes.size()),
+                      SQLITE_STATIC);
+  }
+
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+  };
+  const Archive& archive_;
+  std::string_view action_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
 
 void Archive::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
 
@@ -106,12 +146,7 @@ Archive::Archive(const std::filesystem::path& path, std::string_view command)
       "failure TEXT, seconds REAL NOT NULL, performance TEXT);"
       "CREATE TABLE trials (trial TEXT NOT NULL, design TEXT NOT NULL, performances BLOB, "
       "failure TEXT, PRIMARY KEY (trial, design)) WITHOUT ROWID");
-  const Statement statement =
-      prepared(database_.get(), "INSERT INTO run (command, seconds) VALUES (?, 0)");
-  if (!statement) fail("write to");
-  const std::string name(command);
-  bind_text(statement.get(), 1, name);
-  if (sqlite3_step(statement.get()) != SQLITE_DONE) fail("write to");
+  Statement(*this, "write to", "INSERT INTO run (command, seconds) VALUES (?, 0)", command).next();
   execute(fmt::format("PRAGMA user_version = {}; COMMIT", current_layout).c_str());
 }
 
@@ -126,40 +161,37 @@ Archive Archive::reopened(const std::filesystem::path& path) {
   sqlite3_db_config(archive.database_.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(archive.database_.get(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   // A view may have rows without end.
-  const Statement others = prepared(
-      archive.database_.get(),
+  Statement others(
+      archive, "read",
       "SELECT 1 FROM sqlite_master WHERE type NOT IN ('table', 'index') OR sql LIKE '%virtual%'");
-  if (!others) archive.fail("read");
-  const int status = sqlite3_step(others.get());
-  if (status == SQLITE_ROW) refuse(no_archive);
-  if (status != SQLITE_DONE) archive.fail("read");
-  const Statement table = prepared(
-      archive.database_.get(), "SELECT group_concat(name) FROM pragma_table_info('evaluations')");
-  if (!table || sqlite3_step(table.get()) != SQLITE_ROW) archive.fail("read");
+  if (others.next()) refuse(no_archive);
+  Statement table(archive, "read",
+                  "SELECT group_concat(name) FROM pragma_table_info('evaluations')");
+  table.require_row();
   const int layout = archive.layout();
   if (layout > current_layout) refuse("the archive of a newer version of nlcwfs");
-  if (text_at(table.get(), 0) != columns) refuse(no_archive);
+  if (table.text(0) != columns) refuse(no_archive);
   archive.execute(write_through);
   if (layout > 0) {
-    const Statement run = prepared(archive.database_.get(), "SELECT seconds FROM run");
-    if (!run || sqlite3_step(run.get()) != SQLITE_ROW) archive.fail("read");
-    archive.seconds_before_ = sqlite3_column_double(run.get(), 0);
+    Statement run(archive, "read", "SELECT seconds FROM run");
+    run.require_row();
+    archive.seconds_before_ = run.number(0);
   }
   return archive;
 }
 
 int Archive::layout() const {
-  const Statement statement = prepared(database_.get(), "PRAGMA user_version");
-  if (!statement || sqlite3_step(statement.get()) != SQLITE_ROW) fail("read");
-  return sqlite3_column_int(statement.get(), 0);
+  Statement statement(*this, "read", "PRAGMA user_version");
+  statement.require_row();
+  return static_cast<int>(statement.number(0));
 }
 
 bool Archive::has_trials() const { return layout() > 0; }
 
 std::string Archive::command() const {
-  const Statement statement = prepared(database_.get(), "SELECT command FROM run");
-  if (!statement || sqlite3_step(statement.get()) != SQLITE_ROW) fail("read");
-  return text_at(statement.get(), 0);
+  Statement statement(*this, "read", "SELECT command FROM run");
+  statement.require_row();
+  return statement.text(0);
 }
 
 void Archive::add(const ArchivedEvaluation& evaluation) {
@@ -194,19 +226,12 @@ void Archive::in_transaction(const std::function<void()>& write) {
 
 void Archive::write_added() {
   for (const ArchivedEvaluation& evaluation : added_) {
-    const Statement statement = prepared(
-        database_.get(),
-        "INSERT INTO evaluations (stage, key, design, cost, failure, seconds, performance) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?)");
-    if (!statement) fail("write to");
-    bind_text(statement.get(), 1, evaluation.stage);
-    bind_text(statement.get(), 2, evaluation.key);
-    bind_text(statement.get(), 3, evaluation.design);
-    sqlite3_bind_double(statement.get(), 4, evaluation.cost);  // a NaN becomes NULL
-    bind_text(statement.get(), 5, evaluation.failure);
-    sqlite3_bind_double(statement.get(), 6, evaluation.seconds);
-    bind_text(statement.get(), 7, evaluation.performance);
-    if (sqlite3_step(statement.get()) != SQLITE_DONE) fail("write to");
+    Statement(*this, "write to",
+              "INSERT INTO evaluations (stage, key, design, cost, failure, seconds, performance) "
+              "VALUES (?, ?, ?, ?, ?, ?, ?)",
+              evaluation.stage, evaluation.key, evaluation.design, evaluation.cost,
+              evaluation.failure, evaluation.seconds, evaluation.performance)
+        .next();
   }
 }
 
@@ -255,80 +280,52 @@ void Archive::write(const std::vector<Keeping*>& all) {
   const std::scoped_lock lock(*lock_);
   in_transaction([&] {
     write_added();
-    for (const Keeping* one : all) write_trial(*one);
-    const Statement clock = prepared(database_.get(), "UPDATE run SET seconds = ?");
-    if (!clock) fail("write to");
+    for (const auto* one : all) {
+      Statement(*this, "write to",
+                "INSERT OR REPLACE INTO trials (trial, design, performances, failure) VALUES (?, "
+                "?, ?, ?)",
+                one->trial, one->design, one->known.performances, one->known.failure)
+          .next();
+    }
     const std::chrono::duration<double> open = std::chrono::steady_clock::now() - opened_;
-    sqlite3_bind_double(clock.get(), 1, seconds_before_ + open.count());
-    if (sqlite3_step(clock.get()) != SQLITE_DONE) fail("write to");
+    Statement(*this, "write to", "UPDATE run SET seconds = ?", seconds_before_ + open.count())
+        .next();
   });
   added_.clear();
 }
 
-void Archive::write_trial(const Keeping& one) {
-  const Statement statement = prepared(
-      database_.get(),
-      "INSERT OR REPLACE INTO trials (trial, design, performances, failure) VALUES (?, ?, ?, ?)");
-  if (!statement) fail("write to");
-  bind_text(statement.get(), 1, one.trial);
-  bind_text(statement.get(), 2, one.design);
-  const ArchivedTrial& known = one.known;
-  if (known.failure.empty()) {
-    sqlite3_bind_blob(statement.get(), 3, known.performances.data(),
-                      static_cast<int>(known.performances.size()), SQLITE_STATIC);
-  }
-  bind_text(statement.get(), 4, known.failure);
-  if (sqlite3_step(statement.get()) != SQLITE_DONE) fail("write to");
-}
-
 std::size_t Archive::known_designs(const std::string& trial) const {
   const std::scoped_lock lock(*lock_);
-  const Statement statement =
-      prepared(database_.get(), "SELECT count(*) FROM trials WHERE trial = ?");
-  if (!statement) fail("read");
-  bind_text(statement.get(), 1, trial);
-  if (sqlite3_step(statement.get()) != SQLITE_ROW) fail("read");
-  return static_cast<std::size_t>(sqlite3_column_int64(statement.get(), 0));
+  Statement statement(*this, "read", "SELECT count(*) FROM trials WHERE trial = ?", trial);
+  statement.require_row();
+  return static_cast<std::size_t>(statement.number(0));
 }
 
 std::optional<ArchivedTrial> Archive::find(const std::string& trial,
                                            const std::string& design) const {
   const std::scoped_lock lock(*lock_);
-  const Statement statement = prepared(
-      database_.get(), "SELECT performances, failure FROM trials WHERE trial = ? AND design = ?");
-  if (!statement) fail("read");
-  bind_text(statement.get(), 1, trial);
-  bind_text(statement.get(), 2, design);
-  const int status = sqlite3_step(statement.get());
-  if (status == SQLITE_DONE) return std::nullopt;
-  if (status != SQLITE_ROW) fail("read");
-  const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement.get(), 0));
-  return ArchivedTrial{{bytes, bytes + sqlite3_column_bytes(statement.get(), 0)},
-                       text_at(statement.get(), 1)};
+  Statement statement(*this, "read",
+                      "SELECT performances, failure FROM trials WHERE trial = ? AND design = ?",
+                      trial, design);
+  if (!statement.next()) return std::nullopt;
+  return ArchivedTrial{statement.bytes<std::vector<std::uint8_t>>(0), statement.text(1)};
 }
 
 std::vector<ArchivedEvaluation> Archive::evaluations() const {
   const std::scoped_lock lock(*lock_);
-  const Statement statement =
-      prepared(database_.get(),
-               "SELECT stage, key, design, cost, failure, seconds, performance FROM evaluations "
-               "ORDER BY id");
-  if (!statement) fail("read");
+  Statement row(*this, "read",
+                "SELECT stage, key, design, cost, failure, seconds, performance FROM evaluations "
+                "ORDER BY id");
   std::vector<ArchivedEvaluation> all;
-  int status = SQLITE_OK;
-  while ((status = sqlite3_step(statement.get())) == SQLITE_ROW) {
-    sqlite3_stmt* row = statement.get();
-    all.push_back({.stage = text_at(row, 0),
-                   .design = text_at(row, 2),
-                   .cost = sqlite3_column_type(row, 3) == SQLITE_NULL
-                               ? std::numeric_limits<double>::quiet_NaN()
-                               : sqlite3_column_double(row, 3),
-                   .failure = text_at(row, 4),
-                   .seconds = sqlite3_column_double(row, 5),
-                   .performance = text_at(row, 6),
-                   .key = text_at(row, 1)});
+  while (row.next()) {
+    all.push_back({.stage = row.text(0),
+                   .design = row.text(2),
+                   .cost = row.number(3),
+                   .failure = row.text(4),
+                   .seconds = row.number(5),
+                   .performance = row.text(6),
+                   .key = row.text(1)});
   }
-  if (status != SQLITE_DONE) fail("read");
   all.insert(all.end(), added_.begin(), added_.end());
   return all;
 }

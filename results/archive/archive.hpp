@@ -100,6 +100,7 @@ class Archive {
  private:
   Archive(const std::filesystem::path& path, int flags);
 
+  class Statement;
   [[noreturn]] void fail(std::string_view action) const;
   void execute(const char* sql);
   /// What `write` writes is on disk when it returns, or none of it is.
@@ -121,8 +122,6 @@ class Archive {
     bool is_busy = false;  // a thread writes what all before have given it
   };
   void write(const std::vector<Keeping*>& all);
-  /// @pre lock_ is held, and a transaction is open
-  void write_trial(const Keeping& one);
 
   struct Close {
     void operator()(sqlite3* database) const;

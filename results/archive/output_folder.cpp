@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <fstream>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <unistd.h>
 

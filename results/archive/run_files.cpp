@@ -3,23 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <fnmatch.h>
 
 namespace nlcwfs {
-namespace {
-
-/// Whether a name is as a pattern says, whose * stands for any characters.
-bool matches(std::string_view name, std::string_view pattern) {
-  const auto star = pattern.find('*');
-  if (star == std::string_view::npos) return name == pattern;
-  if (!name.starts_with(pattern.substr(0, star))) return false;
-  for (std::size_t i = star; i <= name.size(); ++i) {
-    if (matches(name.substr(i), pattern.substr(star + 1))) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
 std::span<const RunFile> common_files() {
   static const std::array<RunFile, 4> files{
       {{"summary.json"}, {"config.cfg"}, {"archive.sqlite"}, {"report.html"}}};
@@ -41,7 +27,10 @@ std::vector<RunFile> joined(std::initializer_list<std::vector<RunFile>> lists) {
 }
 
 bool is_named(std::string_view name, std::span<const RunFile> files) {
-  return std::ranges::any_of(files, [&](const RunFile& file) { return matches(name, file.name); });
+  const std::string text(name);
+  return std::ranges::any_of(files, [&](const RunFile& file) {
+    return fnmatch(file.name.c_str(), text.c_str(), FNM_NOESCAPE) == 0;
+  });
 }
 
 bool is_result(std::string_view name, std::span<const RunFile> files) {
