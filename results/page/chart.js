@@ -1,5 +1,3 @@
-"use strict";
-
 // Charts that follow the page's colours, and the paper when the page is printed.
 
 /** Distinct for the colour-blind (Okabe & Ito 2008), the first ones as clear as can be on each ground. */
@@ -173,6 +171,11 @@ function scale(isLog, values) {
   const numbers = roundNumbers(least / 10, 10 * greatest,
     decades > 2.5 ? [1] : decades > 1 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 7]);
   return {type: "log", tickvals: numbers, ticktext: numbers.map((number) => digits(number))};
+}
+
+/** An axis with its title, logarithmic where its values are given. */
+function axis(title, values) {
+  return {title: {text: title}, ...(values ? scale(true, values) : {})};
 }
 
 /** Error bars of a trace. */

@@ -1,5 +1,3 @@
-"use strict";
-
 // A design: its planes along the beam, and tables of what it is and does.
 
 /** The planes to scale along the beam, with the order in which they are visited. */
@@ -137,11 +135,8 @@ function showScreenMetrics(part) {
   const metrics = shownMetrics.filter((metric) => metric in screens);
   const place = element("div");
   part.append(element("div", {className: "controls"},
-    menu("Every screen's", metrics.map((metric) => [metric, label(metric)]), chosen.metric,
-      (metric) => {
-        chosen.metric = metric;
-        made.redraw();
-      })), place);
+    choice("Every screen's", metrics.map((metric) => [metric, label(metric)]), chosen, "metric",
+      () => made.redraw())), place);
   const made = chart(place, "", (theme) => ({
     data: [{type: "bar", x: screens.screen, y: screens[chosen.metric],
       marker: {color: screens.converged.map((converged) => theme.lines[converged ? 0 : 1])},

@@ -1,5 +1,3 @@
-"use strict";
-
 // Detector images and phases of single screens.
 
 /** The values of an image as rows of numbers; null where there is none. */
@@ -47,8 +45,7 @@ function binnedNote(images) {
 
 /** What the detector saw, one image for each plane. */
 function showImages(part, images, width, title) {
-  const grid = element("div", {className: "side-by-side small"});
-  part.append(grid);
+  const grid = part.appendChild(element("div", {className: "side-by-side small"}));
   images.slices.forEach((image, i) => {
     const rows = pixelRows(image);
     imageChart(grid, title(i), {rows, places: pixelPlaces(image, width, images.samples),
@@ -67,18 +64,16 @@ function rootMeanSquare(rows) {
   return Math.sqrt(values.reduce((sum, value) => sum + value * value, 0) / values.length);
 }
 
-/** True, reconstructed and residual phase. */
-function showPhases(part, phases) {
-  const grid = element("div", {className: "side-by-side small"});
-  part.append(grid);
+/** Phases across the pupil. @param title of an index and an RMS @param alike how many of the first have the same colours */
+function showPhases(part, phases, title, alike = 0) {
+  const grid = part.appendChild(element("div", {className: "side-by-side small"}));
   const all = phases.slices.map(pixelRows);
-  const shared = [quantile(all.slice(0, 2).flat(), 0), quantile(all.slice(0, 2).flat(), 1)];
   all.forEach((rows, i) => {
-    const name = ["True phase", "Reconstructed phase", "Residual phase"][i];
-    imageChart(grid, `${name}, RMS ${digits(rootMeanSquare(rows), 3)} rad`, {rows,
-      places: pixelPlaces(phases.slices[i], data.diameter_m, phases.samples),
+    const shown = i < alike ? all.slice(0, alike).flat() : rows;
+    imageChart(grid, title(i, digits(rootMeanSquare(rows), 3)), {rows,
+      places: pixelPlaces(phases.slices[i], data.diameter_m ?? 1, phases.samples),
       quantity: `phase, ${phases.unit}`, colours: "Cividis",
-      range: i < 2 ? shared : [quantile(rows, 0), quantile(rows, 1)]});
+      range: [quantile(shown, 0), quantile(shown, 1)]});
   });
 }
 
@@ -99,7 +94,8 @@ function showCloserLook(design) {
       if (phases) {
         part.append(element("p", {}, `Phases at the telescope's wavelength, without piston; true and
           reconstructed have the same colours.${binnedNote(phases)}`));
-        showPhases(part, phases);
+        const names = ["True phase", "Reconstructed phase", "Residual phase"];
+        showPhases(part, phases, (i, rms) => `${names[i]}, RMS ${rms} rad`, 2);
       }
       if (images) {
         part.append(element("p", {}, `Detector images in the order in which they are visited, with
@@ -118,8 +114,7 @@ function showLoops(part) {
     data: ["typical", "worst"].map((kind, i) => ({type: "scatter", mode: "lines+markers",
       name: `${kind} screen`, x: loops.loop, y: loops[`${kind}_residual_wfe_nm`],
       line: {color: theme.lines[i]}, hovertemplate: "loop %{x}: %{y:.4~g} nm"})),
-    layout: {xaxis: {title: {text: "loops"}},
-      yaxis: {...scale(true, [...loops.typical_residual_wfe_nm, ...loops.worst_residual_wfe_nm]),
-        title: {text: "residual WFE, nm"}}},
+    layout: {xaxis: axis("loops"), yaxis: axis("residual WFE, nm",
+      [...loops.typical_residual_wfe_nm, ...loops.worst_residual_wfe_nm])},
   }));
 }

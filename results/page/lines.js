@@ -1,5 +1,3 @@
-"use strict";
-
 // Lines, and the curves that several commands draw.
 
 /** Lines with their standard errors or spreads. @param curves [{name, x, y, errors, colour, isPale, isDashed, isPoints}] */
@@ -21,17 +19,28 @@ function rowsOf(columns, name, word) {
     [key, chosen.map((i) => values[i])]));
 }
 
+/** A curve for each word that stands in a column. @param x, y, errors names of columns */
+function curvesOf(columns, group, x, y, errors) {
+  return [...new Set(columns[group])].map((name, i) => {
+    const rows = rowsOf(columns, group, name);
+    return {name, x: rows[x], y: rows[y], errors: rows[errors], colour: i};
+  });
+}
+
+/** A chart of such lines. @param xAxis, yAxis of axis() */
+function lineChart(parent, caption, curves, xAxis, yAxis, height) {
+  chart(parent, caption, (theme) => ({data: lineTraces(theme, curves),
+    layout: {xaxis: xAxis, yaxis: yAxis}}), height);
+}
+
 function convergenceChart(part, columns, caption) {
   const screens = Object.keys(columns).filter((name) => /^screen_\d+_nm$/.test(name));
-  chart(part, caption, (theme) => ({
-    data: lineTraces(theme, [
-      ...screens.map((name, i) => ({name: i === 0 ? "each wavefront" : "", x: columns.loop,
-        y: columns[name], isPale: true})),
-      {name: "mean", x: columns.loop, y: columns.residual_wfe_nm, errors: columns.standard_error_nm,
-        colour: 1}]),
-    layout: {xaxis: {title: {text: "loops"}}, yaxis: {...scale(true, screens.flatMap((name) => columns[name])),
-      title: {text: "residual WFE, nm"}}},
-  }));
+  lineChart(part, caption, [
+    ...screens.map((name, i) => ({name: i === 0 ? "each wavefront" : "", x: columns.loop,
+      y: columns[name], isPale: true})),
+    {name: "mean", x: columns.loop, y: columns.residual_wfe_nm, errors: columns.standard_error_nm,
+      colour: 1}],
+  axis("loops"), axis("residual WFE, nm", screens.flatMap((name) => columns[name])));
 }
 
 const responseQuantities = {recovered_share: "recovered share", residual_wfe_nm: "residual WFE, nm",
@@ -40,29 +49,20 @@ const responseQuantities = {recovered_share: "recovered share", residual_wfe_nm:
 function responseCharts(part, columns) {
   const design = rowsOf(columns, "planes", "design");
   const errorsOf = (name) => design[`${name}_standard_error`];
-  chart(part, "The share of each sinusoid that the design recovers, beside the contrast that a radian has in its images.",
-    (theme) => ({
-      data: lineTraces(theme, [
-        {name: "recovered share", x: design.cycles_per_pupil, y: design.recovered_share,
-          errors: errorsOf("recovered_share")},
-        {name: "Talbot contrast, 1/rad", x: design.cycles_per_pupil, y: design.talbot_contrast_per_rad,
-          colour: 2, isPoints: true},
-        {name: "effective contrast, 1/rad", x: design.cycles_per_pupil,
-          y: design.effective_contrast_per_rad, colour: 1, isDashed: true}]),
-      layout: {xaxis: {title: {text: "cycles per pupil diameter"}, ...scale(true, design.cycles_per_pupil)},
-        yaxis: {title: {text: "recovered share; contrast, 1/rad"}, rangemode: "tozero"}},
-    }));
-  if (design.amplitude_noise_nm?.some((value) => value !== null)) {
-    chart(part, "Photon noise of the recovered amplitude.", (theme) => ({
-      data: lineTraces(theme, [
-        {name: "measured", x: design.cycles_per_pupil, y: design.amplitude_noise_nm,
-          errors: errorsOf("amplitude_noise_nm")},
-        {name: "predicted", x: design.cycles_per_pupil, y: design.predicted_amplitude_noise_nm,
-          colour: 1, isDashed: true}]),
-      layout: {xaxis: {title: {text: "cycles per pupil diameter"}, ...scale(true, design.cycles_per_pupil)},
-        yaxis: {title: {text: "noise of the amplitude, nm"}, ...scale(true,
-          [...design.amplitude_noise_nm, ...design.predicted_amplitude_noise_nm])}},
-    }));
+  const x = design.cycles_per_pupil;
+  const xAxis = axis("cycles per pupil diameter", x);
+  lineChart(part, "The share of each sinusoid that the design recovers, beside the contrast that a radian has in its images.", [
+    {name: "recovered share", x, y: design.recovered_share, errors: errorsOf("recovered_share")},
+    {name: "Talbot contrast, 1/rad", x, y: design.talbot_contrast_per_rad, colour: 2, isPoints: true},
+    {name: "effective contrast, 1/rad", x, y: design.effective_contrast_per_rad, colour: 1,
+      isDashed: true}],
+  xAxis, {...axis("recovered share; contrast, 1/rad"), rangemode: "tozero"});
+  const {amplitude_noise_nm: noise, predicted_amplitude_noise_nm: predicted} = design;
+  if (noise?.some((value) => value !== null)) {
+    lineChart(part, "Photon noise of the recovered amplitude.", [
+      {name: "measured", x, y: noise, errors: errorsOf("amplitude_noise_nm")},
+      {name: "predicted", x, y: predicted, colour: 1, isDashed: true}],
+    xAxis, axis("noise of the amplitude, nm", [...noise, ...predicted]));
   }
   part.append(folded("As a table", table(["cycles per pupil", "recovered share", "residual WFE, nm",
     "fractional loops", "effective contrast, 1/rad"], design.cycles_per_pupil.map((cycles, i) => [

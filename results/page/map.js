@@ -1,5 +1,3 @@
-"use strict";
-
 // Quantities over the axes of a grid: maps with contours, and lines.
 
 /** An axis as it is drawn: places, title, and what one of its values is called. */

@@ -1,5 +1,3 @@
-"use strict";
-
 /** What each command's script says of its page: {title, end (the design that its configuration file holds), show(summary)}. */
 const pages = {};
 
@@ -135,6 +133,14 @@ function menu(title, options, value, chosen) {
   select.value = value;
   select.addEventListener("change", () => chosen(select.value));
   return element("label", {}, title, select);
+}
+
+/** A menu that sets a member of `chosen` and then redraws. */
+function choice(title, options, chosen, key, redraw) {
+  return menu(title, options, chosen[key], (value) => {
+    chosen[key] = value;
+    redraw();
+  });
 }
 
 /** A text that can be copied, with a button for it. */

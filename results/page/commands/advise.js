@@ -1,5 +1,3 @@
-"use strict";
-
 // advise: a design of the law, predicted and simulated.
 
 function showAdvice(summary) {

@@ -1,5 +1,3 @@
-"use strict";
-
 // benchmark: speeds.
 
 function showBenchmark(summary) {

@@ -1,5 +1,3 @@
-"use strict";
-
 // compare: a search beside a sweep.
 
 function showComparison(summary) {

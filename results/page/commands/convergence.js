@@ -1,5 +1,3 @@
-"use strict";
-
 // convergence: the residual after each loop.
 
 function showConvergence(summary) {

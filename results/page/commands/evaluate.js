@@ -1,5 +1,3 @@
-"use strict";
-
 // evaluate: a design on its screens.
 
 function showEvaluation(summary) {

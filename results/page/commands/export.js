@@ -1,5 +1,3 @@
-"use strict";
-
 // export: every evaluation, as points.
 
 function showExport(summary) {
@@ -13,13 +11,11 @@ function showExport(summary) {
       columns[name].some((value) => typeof value === "number"));
     const chosen = {x: "evaluation", y: "cost"};
     const place = element("div");
-    const update = (axis) => (name) => {
-      chosen[axis] = name;
-      made.redraw();
-    };
+    const redraw = () => made.redraw();
     const options = names.map((name) => [name, label(name)]);
-    part.append(element("div", {className: "controls"}, menu("To the right", options, chosen.x, update("x")),
-      menu("Upwards", options, chosen.y, update("y"))), place);
+    part.append(element("div", {className: "controls"}, 
+      choice("To the right", options, chosen, "x", redraw),
+      choice("Upwards", options, chosen, "y", redraw)), place);
     const stages = [...new Set(columns.stage)];
     const made = chart(place, "Every evaluation in the archive.", (theme) => ({
       data: stages.map((stage, i) => {

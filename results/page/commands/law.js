@@ -1,5 +1,3 @@
-"use strict";
-
 // law: fits and searches.
 
 const lawQuantities = {z_near_talbot: "near pair, Talbot distances of r0",
@@ -28,15 +26,12 @@ function showLaw(summary) {
     const steps = Array.from({length: 60}, (_, i) =>
       law.least_d_over_r0 * (law.greatest_d_over_r0 / law.least_d_over_r0) ** (i / 59));
     for (const [name, title] of Object.entries(lawQuantities)) {
-      chart(grid, "", (theme) => ({
-        data: lineTraces(theme, [
-          ...(columns?.[name] ? [{name: "searches", x: columns.d_over_r0, y: columns[name],
-            errors: columns[`${name}_standard_error`], isPoints: true}] : []),
-          {name: "law", x: steps, y: lawLine(law, name, steps), colour: 1, isDashed: true}]),
-        layout: {xaxis: {title: {text: "D/r<sub>0</sub>"}, ...scale(true, steps)},
-          yaxis: {title: {text: title},
-            ...scale(true, [...lawLine(law, name, steps), ...(columns?.[name] ?? [])])}},
-      }), 320);
+      const line = lawLine(law, name, steps);
+      lineChart(grid, "", [
+        ...(columns?.[name] ? [{name: "searches", x: columns.d_over_r0, y: columns[name],
+          errors: columns[`${name}_standard_error`], isPoints: true}] : []),
+        {name: "law", x: steps, y: line, colour: 1, isDashed: true}],
+      axis("D/r<sub>0</sub>", steps), axis(title, [...line, ...(columns?.[name] ?? [])]), 320);
     }
   });
   section("Designs", (part) => part.append(performanceTable(summary.designs.map((design, i) =>

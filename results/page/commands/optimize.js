@@ -1,5 +1,3 @@
-"use strict";
-
 // optimize: the best design, and how it was found.
 
 function showOptimization(summary) {
@@ -99,8 +97,7 @@ function showSensitivity(part, summary) {
           : range.greatest_is_bound ? "the greatest is the end of what was searched" : ""])));
   }
   if (!moved?.variable) return;
-  const grid = element("div", {className: "side-by-side"});
-  part.append(grid);
+  const grid = part.appendChild(element("div", {className: "side-by-side"}));
   for (const name of new Set(moved.variable)) {
     const rows = moved.variable.map((_, i) => i).filter((i) => moved.variable[i] === name)
       .sort((a, b) => moved.value[a] - moved.value[b]);

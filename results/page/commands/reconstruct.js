@@ -1,23 +1,13 @@
-"use strict";
-
 // reconstruct: phases, and how well they predict the frames.
 
 function showReconstruction(summary) {
   const {design} = summary;
   const phase = data.images?.["phase.fits"];
-  const width = data.diameter_m ?? 1;
   if (phase) {
     section("Phase", (part) => {
       part.append(element("p", {}, `Without piston, at the telescope's wavelength;
         ${phase.count === 1 ? "one set of frames" : `${phase.slices.length} of ${phase.count} sets of frames`}.${binnedNote(phase)}`));
-      const grid = element("div", {className: "side-by-side small"});
-      part.append(grid);
-      phase.slices.forEach((image, i) => {
-        const rows = pixelRows(image);
-        imageChart(grid, `Set ${i + 1}, RMS ${digits(rootMeanSquare(rows), 3)} rad`, {rows,
-          places: pixelPlaces(image, width, phase.samples), quantity: `phase, ${phase.unit}`,
-          colours: "Cividis", range: [quantile(rows, 0), quantile(rows, 1)]});
-      });
+      showPhases(part, phase, (i, rms) => `Set ${i + 1}, RMS ${rms} rad`);
     });
   }
   if (data.images?.["frames.fits"] && data.images?.["predicted.fits"]) {
@@ -48,8 +38,7 @@ function showPredictions(part, design, frames, predicted) {
     the unaberrated pupil.${binnedNote(frames)}`));
   design.planes_m.slice(0, frames.slices.length).forEach((plane, i) => {
     part.append(element("h3", {}, `Plane ${i + 1}, ${length(plane)}`));
-    const grid = element("div", {className: "side-by-side small"});
-    part.append(grid);
+    const grid = part.appendChild(element("div", {className: "side-by-side small"}));
     const measured = pixelRows(frames.slices[i]);
     const expected = pixelRows(predicted.slices[i]);
     const difference = measured.map((row, k) => row.map((value, j) =>

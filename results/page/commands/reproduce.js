@@ -1,5 +1,3 @@
-"use strict";
-
 // reproduce: the paper's claims and figures.
 
 const setupTitles = {paper: "the paper's set-up", extended: "extended truth, rule difference"};
@@ -38,8 +36,7 @@ function showFirst(show) {
 /** Draws each table of a part beside the others, that of the paper's set-up first. */
 function showEach(draw) {
   return (part, tables) => {
-    const grid = element("div", {className: "side-by-side"});
-    part.append(grid);
+    const grid = part.appendChild(element("div", {className: "side-by-side"}));
     for (const [name, columns] of tables.reverse()) draw(grid, columns, paperTitle(name));
   };
 }
@@ -66,16 +63,12 @@ function showClaims(part, claims) {
         element("div", {}, claims.claim[i], element("div", {className: "faint"}, claims.papers_number[i])),
         ...setups.map((setup) => verdict(setup, i)), claims.rule[i]])));
   };
-  const set = (key) => (value) => {
-    chosen[key] = value;
-    show();
-  };
   const figures = [...new Set(claims.figure.map(String))];
   const verdicts = [...new Set([...claims.paper_verdict, ...claims.extended_verdict])].sort();
   part.append(element("div", {className: "controls"},
-    menu("Figure", [["", "all"], ...figures.map((one) => [one, one])], "", set("figure")),
-    menu("Set-up", [["", "both"], ...Object.entries(setupTitles)], "", set("setup")),
-    menu("Verdict", [["", "all"], ...verdicts.map((one) => [one, one])], "", set("verdict"))), place);
+    choice("Figure", [["", "all"], ...figures.map((one) => [one, one])], chosen, "figure", show),
+    choice("Set-up", [["", "both"], ...Object.entries(setupTitles)], chosen, "setup", show),
+    choice("Verdict", [["", "all"], ...verdicts.map((one) => [one, one])], chosen, "verdict", show)), place);
   show();
 }
 
@@ -92,11 +85,8 @@ function showPaperMaps(part, tables) {
   const grid = element("div", {className: "side-by-side"});
   const quantities = {residual_wfe: "residual WFE, nm", loops: "loops"};
   const made = [];
-  part.append(element("div", {className: "controls"}, menu("Map", tables.map(([name]) =>
-    [name, paperTitle(name)]), chosen.name, (name) => {
-    chosen.name = name;
-    for (const one of made) one.redraw();
-  })), grid);
+  part.append(element("div", {className: "controls"}, choice("Map", tables.map(([name]) =>
+    [name, paperTitle(name)]), chosen, "name", () => made.forEach((one) => one.redraw()))), grid);
   for (const [quantity, quantityTitle] of Object.entries(quantities)) {
     made.push(chart(grid, "", (theme) => {
       const columns = tables.find(([name]) => name === chosen.name)[1];
@@ -125,36 +115,22 @@ function fifthPlane(part, columns, caption) {
   for (const [name, errors, title] of [
     ["residual_wfe_nm", "residual_wfe_standard_error_nm", "residual WFE, nm"],
     ["loops", "loops_standard_error", "loops"]]) {
-    chart(part, `${caption}: ${title}`, (theme) => ({
-      data: lineTraces(theme, [{x: columns.z5_m.map((z) => z / 1e3), y: columns[name],
-        errors: columns[errors]}]),
-      layout: {xaxis: {title: {text: "Z of the fifth plane, km"}}, yaxis: {title: {text: title}}},
-    }), 320);
+    lineChart(part, `${caption}: ${title}`, [{x: columns.z5_m.map((z) => z / 1e3), y: columns[name],
+      errors: columns[errors]}], axis("Z of the fifth plane, km"), axis(title), 320);
   }
 }
 
 function sampling(part, columns, caption) {
-  const ratios = [...new Set(columns.d_over_r0)];
-  chart(part, caption, (theme) => ({
-    data: lineTraces(theme, ratios.map((ratio, i) => {
-      const rows = rowsOf(columns, "d_over_r0", ratio);
-      return {name: `D/r0 = ${ratio}`, x: rows.pixels_per_r0, y: rows.field_strehl,
-        errors: rows.field_strehl_standard_error, colour: i};
-    })),
-    layout: {xaxis: {title: {text: "pixels per r<sub>0</sub>"}, ...scale(true, columns.pixels_per_r0)},
-      yaxis: {title: {text: "field-estimated Strehl"}}},
-  }), 340);
+  const curves = curvesOf(columns, "d_over_r0", "pixels_per_r0", "field_strehl",
+    "field_strehl_standard_error");
+  lineChart(part, caption, curves.map((curve) => ({...curve, name: `D/r0 = ${curve.name}`})),
+    axis("pixels per r<sub>0</sub>", columns.pixels_per_r0), axis("field-estimated Strehl"), 340);
 }
 
 function bands(part, columns, caption) {
-  const names = [...new Set(columns.band)];
-  chart(part, `${caption}; bars are standard deviations, as in the paper.`, (theme) => ({
-    data: lineTraces(theme, names.map((name, i) => {
-      const rows = rowsOf(columns, "band", name);
-      return {name, x: rows.loop, y: rows.residual_wfe_nm, errors: rows.standard_deviation_nm, colour: i};
-    })),
-    layout: {xaxis: {title: {text: "loops"}}, yaxis: {...scale(true, columns.residual_wfe_nm), title: {text: "residual WFE, nm"}}},
-  }), 340);
+  lineChart(part, `${caption}; bars are standard deviations, as in the paper.`,
+    curvesOf(columns, "band", "loop", "residual_wfe_nm", "standard_deviation_nm"),
+    axis("loops"), axis("residual WFE, nm", columns.residual_wfe_nm), 340);
 }
 
 function showNumerics(part, numerics) {

@@ -1,5 +1,3 @@
-"use strict";
-
 // response: single spatial frequencies.
 
 function showResponse(summary) {

@@ -1,5 +1,3 @@
-"use strict";
-
 // scale: a design before and after.
 
 function showScaling(summary) {

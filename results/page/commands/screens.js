@@ -1,5 +1,3 @@
-"use strict";
-
 // screens: statistics and the first screens.
 
 function showScreens(summary) {
@@ -11,34 +9,20 @@ function showScreens(summary) {
         digits(summary.kolmogorov_tilt_removed_variance_rad2)]]));
     const columns = data.tables?.["structure_function.csv"];
     if (!columns?.direction) return;
-    const directions = [...new Set(columns.direction)];
-    chart(part, "Structure function: measured along four directions, and theory.", (theme) => ({
-      data: lineTraces(theme, [
-        ...directions.map((direction, i) => {
-          const rows = rowsOf(columns, "direction", direction);
-          return {name: direction, x: rows.separation_m, y: rows.structure_function_rad2,
-            errors: rows.standard_error_rad2, colour: i};
-        }),
-        {name: "theory", x: rowsOf(columns, "direction", directions[0]).separation_m,
-          y: rowsOf(columns, "direction", directions[0]).expected_rad2, colour: 4, isDashed: true}]),
-      layout: {xaxis: {title: {text: "separation, m"}, ...scale(true, columns.separation_m)},
-        yaxis: {title: {text: "structure function, rad²"},
-          ...scale(true, columns.structure_function_rad2)}},
-    }));
+    const first = rowsOf(columns, "direction", columns.direction[0]);
+    lineChart(part, "Structure function: measured along four directions, and theory.", [
+      ...curvesOf(columns, "direction", "separation_m", "structure_function_rad2",
+        "standard_error_rad2"),
+      {name: "theory", x: first.separation_m, y: first.expected_rad2, colour: 4, isDashed: true}],
+      axis("separation, m", columns.separation_m),
+      axis("structure function, rad²", columns.structure_function_rad2));
   });
   const images = data.images?.["screens.fits"];
   if (!images) return;
   section("Screens", (part) => {
     part.append(element("p", {}, `${images.slices.length} of ${images.count}, in ${images.unit}, without
       piston over the pupil.${binnedNote(images)}`));
-    const grid = element("div", {className: "side-by-side small"});
-    part.append(grid);
-    images.slices.forEach((image, i) => {
-      const rows = pixelRows(image);
-      imageChart(grid, `Screen ${i}`, {rows,
-        places: pixelPlaces(image, data.diameter_m ?? 1, images.samples),
-        quantity: `phase, ${images.unit}`, colours: "Cividis", range: [quantile(rows, 0), quantile(rows, 1)]});
-    });
+    showPhases(part, images, (i) => `Screen ${i}`);
   });
 }
 

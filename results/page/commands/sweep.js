@@ -1,5 +1,3 @@
-"use strict";
-
 // sweep: the map, and the best of it.
 
 function showSweep(summary) {

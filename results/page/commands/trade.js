@@ -1,5 +1,3 @@
-"use strict";
-
 // trade: an explorer of the front.
 
 /** What a design of the front may be shown and filtered by: {name: quantity of a design}. */
@@ -131,8 +129,8 @@ function showFront(part, summary) {
     chosen[key] = value;
     made.redraw();
   };
-  controls.append(menu("To the right", options, chosen.x, set("x")),
-    tick("logarithmic", chosen.isLogX, set("isLogX")), menu("Upwards", options, chosen.y, set("y")),
+  controls.append(choice("To the right", options, chosen, "x", made.redraw),
+    tick("logarithmic", chosen.isLogX, set("isLogX")), choice("Upwards", options, chosen, "y", made.redraw),
     tick("logarithmic", chosen.isLogY, set("isLogY")),
     ...planeCounts.map((planes) => tick(`${planes} planes`, true, (isOn) => {
       chosen.planes[isOn ? "add" : "delete"](planes);
