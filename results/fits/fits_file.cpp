@@ -3,7 +3,6 @@
 
 #include <array>
 #include <exception>
-#include <string>
 #include <system_error>
 
 #include <fmt/format.h>

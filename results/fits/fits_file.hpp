@@ -14,8 +14,7 @@ namespace nlcwfs {
 // What those that read and write FITS share: the interface of CFITSIO with exceptions.
 
 /// A failed CFITSIO call; what() is CFITSIO's message.
-class FitsFailure : public std::runtime_error {
- public:
+struct FitsFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

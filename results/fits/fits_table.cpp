@@ -16,11 +16,7 @@ namespace {
 std::vector<std::string> texts_of(const TableColumn& column) {
   std::vector<std::string> texts;
   for (const TableCell& cell : column.cells) {
-    const auto* number = std::get_if<double>(&cell);
-    const auto* text = std::get_if<std::string>(&cell);
-    texts.push_back(number != nullptr ? fmt::format("{}", *number)
-                    : text != nullptr ? *text
-                                      : std::string());
+    texts.push_back(cell_text(cell));
     std::ranges::replace_if(
         texts.back(), [](char c) { return c < ' ' || c > '~'; }, '?');
   }

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <limits>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -63,21 +62,16 @@ double panel_step(const std::vector<Curve>& curves) {
 }
 
 /// What a picture's curves and axes are drawn with.
-struct DrawnCurves {
-  explicit DrawnCurves(const CurvePicture& picture);
-
-  std::string settings;
-  std::vector<std::string> plots;
-  int labels = 0;
-};
-
-DrawnCurves::DrawnCurves(const CurvePicture& picture)
-    : settings(fmt::format("set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
-                           gnuplot_text(picture.x_label), gnuplot_text(picture.y_label),
-                           axis("x", picture.curves, &Curve::x, picture.has_log_x),
-                           axis("y", picture.curves, &Curve::y, picture.has_log_y))) {
+/// What a picture's curves and axes are drawn with.
+GnuplotPanel curve_panel(const CurvePicture& picture) {
+  GnuplotPanel panel{
+      fmt::format("set xlabel {}\nset ylabel {}\nset grid linecolor rgb '#dddddd'\n{}{}",
+                  gnuplot_text(picture.x_label), gnuplot_text(picture.y_label),
+                  axis("x", picture.curves, &Curve::x, picture.has_log_x),
+                  axis("y", picture.curves, &Curve::y, picture.has_log_y)),
+      {}};
   if (picture.band) {
-    settings += fmt::format(
+    panel.settings += fmt::format(
         "set object 1 rectangle from first {},graph 0 to first {},graph 1 behind fillcolor rgb "
         "'#dcebf5' fillstyle solid noborder\n",
         picture.band->first, picture.band->second);
@@ -86,22 +80,22 @@ DrawnCurves::DrawnCurves(const CurvePicture& picture)
     const Curve& curve = picture.curves[i];
     if (!has_values(curve)) continue;
     const std::string name = fmt::format("curve{}", i);
-    settings += data_block(name, rows_of(curve, picture.has_log_y));
+    panel.settings += data_block(name, rows_of(curve, picture.has_log_y));
     const std::string_view colour =
         distinct_colours[static_cast<std::size_t>(curve.colour) % distinct_colours.size()];
     if (!curve.spread.empty()) {
-      plots.push_back(fmt::format(
+      panel.plots.push_back(fmt::format(
           "${} using 1:2:3:4 with yerrorbars pointtype 7 pointsize 0.5 linecolor rgb '#{}' notitle",
           name, colour));
     }
     const std::string style = curve.is_points ? "points pointtype 7 pointsize 0.7"
                               : curve.is_pale ? "lines linewidth 1"
                                               : "lines linewidth 2";
-    plots.push_back(fmt::format(
+    panel.plots.push_back(fmt::format(
         "${} using 1:2 with {} linecolor rgb '#{}{}' {}", name, style, curve.is_pale ? "90" : "00",
         colour, curve.label.empty() ? "notitle" : "title " + gnuplot_text(curve.label)));
-    labels += curve.label.empty() ? 0 : 1;
   }
+  return panel;
 }
 
 constexpr const char* nothing_to_draw = "there is no value to draw";
@@ -110,10 +104,11 @@ constexpr const char* nothing_to_draw = "there is no value to draw";
 
 std::optional<std::string> write_picture(const CurvePicture& picture,
                                          const std::filesystem::path& stem) {
-  const DrawnCurves drawn(picture);
-  if (drawn.plots.empty()) return nothing_to_draw;
-  const int key_rows = drawn.labels > 0 ? 1 + (drawn.labels - 1) / 4 : 0;
-  return draw(drawn.settings, {picture.title, key_rows, drawn.plots}, stem);
+  const GnuplotPanel panel = curve_panel(picture);
+  if (panel.plots.empty()) return nothing_to_draw;
+  const auto labels = std::ranges::count_if(
+      picture.curves, [](const Curve& curve) { return has_values(curve) && !curve.label.empty(); });
+  return draw(picture.title, static_cast<int>((labels + 3) / 4), panel, stem);
 }
 
 std::optional<std::string> write_picture(const std::string& title,
@@ -121,15 +116,12 @@ std::optional<std::string> write_picture(const std::string& title,
                                          const std::filesystem::path& stem) {
   std::vector<GnuplotPanel> panels;
   for (const CurvePicture& picture : pictures) {
-    DrawnCurves drawn(picture);
-    if (drawn.plots.empty()) continue;
+    GnuplotPanel panel = curve_panel(picture);
+    if (panel.plots.empty()) continue;
     const double step = panel_step(picture.curves);
-    if (!picture.has_log_x && step > 0.0) {
-      drawn.settings += fmt::format("set xtics {}\n", step);
-    }
-    panels.push_back(
-        {fmt::format("set title {}\n", gnuplot_text(picture.title)) + std::move(drawn.settings),
-         std::move(drawn.plots)});
+    if (!picture.has_log_x && step > 0.0) panel.settings += fmt::format("set xtics {}\n", step);
+    panel.settings.insert(0, fmt::format("set title {}\n", gnuplot_text(picture.title)));
+    panels.push_back(std::move(panel));
   }
   if (panels.empty()) return nothing_to_draw;
   const std::size_t columns = std::min<std::size_t>(3, panels.size());

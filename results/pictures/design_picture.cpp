@@ -137,19 +137,17 @@ std::optional<std::string> write_design_picture(const std::string& title,
                     "title 'Talbot distance of r0, {} km'",
                     km_text(talbot / km)));
   }
-  plots.emplace_back(
-      "$pupil using 1:2 with lines linewidth 4 linecolor rgb '#404040' title 'pupil'");
-  plots.emplace_back(
-      "$labels using 1:2:(0):($7-$2) with vectors nohead linewidth 0.7 linecolor rgb '#909090' "
-      "notitle");
-  plots.emplace_back(
-      "$planes using 1:2 with lines linewidth 2.5 linecolor rgb '#440154' "
-      "title 'detector windows, numbered as visited'");
-  plots.emplace_back(
-      "$labels using 1:3 with points pointtype 7 pointsize 2.4 linecolor rgb '#440154' notitle");
-  plots.emplace_back("$labels using 1:3:4 with labels textcolor rgb 'white' font ',13' notitle");
-  plots.emplace_back("$labels using 1:6:5 with labels font ',12' notitle");
-  return draw(script, {title, 3, plots}, stem);
+  plots.insert(
+      plots.end(),
+      {"$pupil using 1:2 with lines linewidth 4 linecolor rgb '#404040' title 'pupil'",
+       "$labels using 1:2:(0):($7-$2) with vectors nohead linewidth 0.7 linecolor rgb '#909090' "
+       "notitle",
+       "$planes using 1:2 with lines linewidth 2.5 linecolor rgb '#440154' "
+       "title 'detector windows, numbered as visited'",
+       "$labels using 1:3 with points pointtype 7 pointsize 2.4 linecolor rgb '#440154' notitle",
+       "$labels using 1:3:4 with labels textcolor rgb 'white' font ',13' notitle",
+       "$labels using 1:6:5 with labels font ',12' notitle"});
+  return draw(title, 3, {script, plots}, stem);
 }
 
 }  // namespace nlcwfs

@@ -2,7 +2,6 @@
 #include "results/pictures/gnuplot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -145,16 +144,16 @@ std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : "NaN";
 }
 
-std::optional<std::string> draw(const std::string& script, const GnuplotFigure& figure,
+std::optional<std::string> draw(const std::string& title, int key_rows, const GnuplotPanel& panel,
                                 const std::filesystem::path& stem) {
   const std::string outer_parts = fmt::format(
-      "set title {} offset 0,0.4\nset border linewidth 0.8\n{}\n", gnuplot_text(figure.title),
-      figure.key_rows > 0
+      "set title {} offset 0,0.4\nset border linewidth 0.8\n{}\n", gnuplot_text(title),
+      key_rows > 0
           ? fmt::format("set key below center horizontal Left reverse maxrows {} samplen 1 width 1 "
                         "height 1.4 font ',13'",
-                        figure.key_rows)
+                        key_rows)
           : "unset key");
-  return run_gnuplot(script + outer_parts, plot_command(figure.plots), {}, stem);
+  return run_gnuplot(panel.settings + outer_parts, plot_command(panel.plots), {}, stem);
 }
 
 std::optional<std::string> draw(const GnuplotPanels& figure, const std::filesystem::path& stem) {

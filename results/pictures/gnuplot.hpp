@@ -10,14 +10,7 @@
 
 namespace nlcwfs {
 
-/// What every picture that gnuplot draws has, apart from its data and axes.
-struct GnuplotFigure {
-  std::string title;               ///< above the picture
-  int key_rows = 0;                ///< of the symbols' meanings below the picture; 0 = none
-  std::vector<std::string> plots;  ///< of one plot command
-};
-
-/// One of several plots in a picture.
+/// What is drawn within one pair of axes.
 struct GnuplotPanel {
   std::string settings;            ///< data and axes; those of other panels do not reach it
   std::vector<std::string> plots;  ///< of one plot command
@@ -78,10 +71,12 @@ std::string number_text(double value);
 std::string data_block(std::string_view name, const std::string& rows);
 
 /// Draws a picture with gnuplot, as SVG and as PNG. What is there already is overwritten.
-/// @param script  data and axes
-/// @param stem    the files' path without .svg and .png
+/// @param title     above the picture
+/// @param key_rows  of the symbols' meanings below the picture; 0 = none
+/// @param panel     the picture
+/// @param stem      the files' path without .svg and .png
 /// @return why there is no picture (gnuplot is not installed, or fails); nothing where there is one
-std::optional<std::string> draw(const std::string& script, const GnuplotFigure& figure,
+std::optional<std::string> draw(const std::string& title, int key_rows, const GnuplotPanel& panel,
                                 const std::filesystem::path& stem);
 /// The same of several panels in one picture.
 std::optional<std::string> draw(const GnuplotPanels& figure, const std::filesystem::path& stem);

@@ -8,10 +8,8 @@
 #include "results/text/axis_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include <boost/algorithm/string/case_conv.hpp>
@@ -77,11 +75,11 @@ double GridPictureAxis::place_of(const SensorDesign& design,
     const auto index = static_cast<std::size_t>(pair - pair_names.begin());
     return is_symmetric && index < pairs->pairs.size() ? pairs->pairs[index] / unit : nan;
   }
-  if (name == "order") {
-    if (!is_symmetric) return nan;
-    const auto found = std::ranges::find(drawn.words, word_of(pairs->order));
+  const auto place_of_word = [&](std::string_view word) {
+    const auto found = std::ranges::find(drawn.words, word);
     return found == drawn.words.end() ? nan : double(found - drawn.words.begin());
-  }
+  };
+  if (name == "order") return is_symmetric ? place_of_word(word_of(pairs->order)) : nan;
   if (name.size() == 2 && name[0] == 'z') {
     const auto plane = static_cast<std::size_t>(name[1] - '1');
     return plane < design.planes.size() ? design.planes[plane] / unit : nan;
@@ -91,36 +89,28 @@ double GridPictureAxis::place_of(const SensorDesign& design,
   const double value = property->get(design);
   if (drawn.words.empty()) return value / unit;
   // A word's value is its number among all words, of which the axis may have some.
-  const auto found =
-      std::ranges::find(drawn.words, property->words[static_cast<std::size_t>(value)]);
-  return found == drawn.words.end() ? nan : double(found - drawn.words.begin());
+  return place_of_word(property->words[static_cast<std::size_t>(value)]);
 }
 
 /// The points of a grid as they are drawn: what its axes other than those drawn have at their best.
-class DrawnGrid {
- public:
+struct DrawnGrid {
   explicit DrawnGrid(const Json& grid);
-
-  /// Those that are drawn, in the grid's order: none to two.
-  const std::vector<GridPictureAxis>& axes() const { return axes_; }
-  bool hides_axes() const { return hides_axes_; }
 
   /// Of each point that is drawn, the last axis running fastest.
   std::vector<double> values_of(const Json& matrix) const;
 
- private:
-  std::vector<GridPictureAxis> axes_;
-  bool hides_axes_ = false;
-  std::vector<std::size_t> chosen_;  ///< the grid's point that stands for each drawn one
+  std::vector<GridPictureAxis> axes;  ///< those that are drawn, in the grid's order: none to two
+  bool hides_axes = false;
+  std::vector<std::size_t> chosen;  ///< the grid's point that stands for each drawn one
 };
 
 DrawnGrid::DrawnGrid(const Json& grid) {
-  const Json& axes = grid.at("axes");
-  const auto length = [&](std::size_t axis) { return axes[axis].at("values").size(); };
+  const Json& all = grid.at("axes");
+  const auto length = [&](std::size_t axis) { return all[axis].at("values").size(); };
   const std::vector<double> costs = numbers_from_json(grid.at("cost"));
   std::vector<std::size_t> drawn;
   double points = 1.0;  // may be too many for an integer
-  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+  for (std::size_t axis = 0; axis < all.size(); ++axis) {
     points *= double(length(axis));
     if (length(axis) > 1) drawn.push_back(axis);
   }
@@ -130,38 +120,38 @@ DrawnGrid::DrawnGrid(const Json& grid) {
   }
   std::ranges::stable_sort(drawn, std::ranges::greater(), length);
   if (drawn.size() > 2) {
-    hides_axes_ = true;
+    hides_axes = true;
     drawn.resize(2);
   }
   std::ranges::sort(drawn);
   std::size_t count = 1;
   for (const std::size_t axis : drawn) {
-    axes_.emplace_back(axes[axis]);
+    axes.emplace_back(all[axis]);
     count *= length(axis);
   }
 
-  chosen_.assign(count, costs.size());
+  chosen.assign(count, costs.size());
   for (std::size_t point = 0; point < costs.size(); ++point) {
     std::size_t rest = point;
     std::size_t place = 0;
     std::size_t stride = 1;
-    for (std::size_t axis = axes.size(); axis-- > 0;) {
+    for (std::size_t axis = all.size(); axis-- > 0;) {
       if (std::ranges::count(drawn, axis) > 0) {
         place += rest % length(axis) * stride;
         stride *= length(axis);
       }
       rest /= length(axis);
     }
-    std::size_t& chosen = chosen_[place];
-    const bool is_first = chosen == costs.size() || std::isnan(costs[chosen]);
-    if (is_first || costs[point] < costs[chosen]) chosen = point;
+    std::size_t& best = chosen[place];
+    const bool is_first = best == costs.size() || std::isnan(costs[best]);
+    if (is_first || costs[point] < costs[best]) best = point;
   }
 }
 
 std::vector<double> DrawnGrid::values_of(const Json& matrix) const {
   const std::vector<double> all = numbers_from_json(matrix);
   std::vector<double> values;
-  for (const std::size_t point : chosen_) values.push_back(all.at(point));
+  for (const std::size_t point : chosen) values.push_back(all.at(point));
   return values;
 }
 
@@ -170,7 +160,7 @@ std::vector<double> DrawnGrid::values_of(const Json& matrix) const {
 void write_grid_map(const Json& grid, const std::string& figure, const std::string& unit,
                     const std::filesystem::path& path) {
   const DrawnGrid drawn(grid);
-  if (drawn.axes().size() != 2) return;
+  if (drawn.axes.size() != 2) return;
   const auto axis_of = [](const GridPictureAxis& axis) {
     return FitsMapAxis{.name = boost::algorithm::to_upper_copy(axis.name),
                        .unit = axis.si_unit,
@@ -178,8 +168,7 @@ void write_grid_map(const Json& grid, const std::string& figure, const std::stri
                        .words = axis.drawn.words,
                        .description = label_of(axis.name)};
   };
-  FitsMap map{
-      .unit = unit, .x = axis_of(drawn.axes()[0]), .y = axis_of(drawn.axes()[1]), .values = {}};
+  FitsMap map{.unit = unit, .x = axis_of(drawn.axes[0]), .y = axis_of(drawn.axes[1]), .values = {}};
   const std::vector<double> values = drawn.values_of(grid.at(figure));
   // They have the second axis running fastest.
   map.values = Eigen::Map<const Image<double>>(values.data(), Eigen::Index(map.x.values.size()),
@@ -204,7 +193,7 @@ std::optional<std::string> write_grid_picture(const std::string& title, const Js
                                               const std::filesystem::path& stem,
                                               const std::optional<SearchPath>& search) {
   const DrawnGrid drawn(grid);
-  const std::vector<GridPictureAxis>& axes = drawn.axes();
+  const std::vector<GridPictureAxis>& axes = drawn.axes;
   if (axes.empty()) return "the grid has one value on each axis";
   const std::vector<double> values = drawn.values_of(grid.at(figure));
 
@@ -240,7 +229,7 @@ std::optional<std::string> write_grid_picture(const std::string& title, const Js
 
   const std::string label = label_of(figure);
   const std::string whole_title =
-      drawn.hides_axes() ? fmt::format("{}, at the best of the other axes", title) : title;
+      drawn.hides_axes ? fmt::format("{}, at the best of the other axes", title) : title;
   if (axes.size() == 1) {
     const std::vector<double> errors = drawn.values_of(grid.at("standard_error").at(figure));
     LinePicture picture{whole_title, axes[0].drawn, label, {}, std::move(overlay)};

@@ -10,7 +10,6 @@
 #include <limits>
 #include <numeric>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -129,19 +128,16 @@ std::string DrawnAxis::script(std::string_view name) const {
   std::string script = fmt::format("set {}label {}\nset {}range [{}:{}]\n", name,
                                    gnuplot_text(label), name, range.least, range.greatest);
   if (is_logarithmic) script += fmt::format("set logscale {}\n", name);
-  std::vector<std::string> tics;
-  if (!words.empty()) {
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      tics.push_back(fmt::format("{} {}", gnuplot_text(words[order[i]]), values[i]));
-    }
-  } else {
-    for (const double number : round_numbers(range, 6, is_logarithmic)) {
-      tics.push_back(fmt::format("{:.12g}", number));
-    }
+  std::string tics =
+      words.empty()
+          ? fmt::format("{:.12g}", fmt::join(round_numbers(range, 6, is_logarithmic), ", "))
+          : "";
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_text(words[order[i]]), values[i]);
   }
   const bool is_long = name == "x" && words.size() > 10;
-  return script + fmt::format("set {}tics {}out nomirror ({})\n", name, is_long ? "rotate " : "",
-                              fmt::join(tics, ", "));
+  return script +
+         fmt::format("set {}tics {}out nomirror ({})\n", name, is_long ? "rotate " : "", tics);
 }
 
 std::string rows_of(const std::vector<PicturePoint>& points) {
@@ -250,9 +246,6 @@ std::optional<std::string> write_picture(const MapPicture& picture,
   // A plain: any range will do, but not none.
   if (values.least == values.greatest) values.greatest += std::max(1e-9, std::abs(values.least));
 
-  std::vector<std::string> level_texts;
-  level_texts.reserve(levels.size());
-  for (const double level : levels) level_texts.push_back(fmt::format("{:.12g}", level));
   std::string script = data_block("cells", cells) + overlay_data(picture.overlay);
   std::vector<std::string> plots{
       "$cells using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid border linewidth 0.4 linecolor "
@@ -261,10 +254,10 @@ std::optional<std::string> write_picture(const MapPicture& picture,
   if (x.values.size() > 1 && y.values.size() > 1 && x.words.empty() && y.words.empty()) {
     script += data_block("grid", grid) +
               fmt::format(
-                  "set contour base\nunset surface\nset cntrparam levels discrete {}\n"
+                  "set contour base\nunset surface\nset cntrparam levels discrete {:.12g}\n"
                   "set table $contours\nsplot $grid using 1:2:3\nunset table\n"
                   "unset contour\nset surface\n",
-                  fmt::join(level_texts, ", "));
+                  fmt::join(levels, ", "));
     plots.emplace_back(
         "$contours using 1:2 with lines linecolor rgb '#50ffffff' linewidth 0.9 notitle");
   }
@@ -272,15 +265,15 @@ std::optional<std::string> write_picture(const MapPicture& picture,
       x.script("x") + y.script("y") +
       fmt::format(
           "{}set cblabel {} offset 0.8,0\n"
-          "set cbrange [{}:{}]\n{}set cbtics ({})\n",
+          "set cbrange [{}:{}]\n{}set cbtics ({:.12g})\n",
           sequential_palette, gnuplot_text(picture.value_label), values.least, values.greatest,
-          is_logarithmic ? "set logscale cb\n" : "", fmt::join(level_texts, ", ")) +
+          is_logarithmic ? "set logscale cb\n" : "", fmt::join(levels, ", ")) +
       // Where there is no value.
       "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#d9d9d9' "
       "fillstyle solid noborder\n";
   const std::vector<std::string> overlay = overlay_plots(picture.overlay, true);
   plots.insert(plots.end(), overlay.begin(), overlay.end());
-  return draw(script, {picture.title, overlay.empty() ? 0 : 1, plots}, stem);
+  return draw(picture.title, overlay.empty() ? 0 : 1, {script, plots}, stem);
 }
 
 std::optional<std::string> write_picture(const LinePicture& picture,
@@ -321,7 +314,7 @@ std::optional<std::string> write_picture(const LinePicture& picture,
       "notitle"};
   const std::vector<std::string> overlay = overlay_plots(picture.overlay, false);
   plots.insert(plots.end(), overlay.begin(), overlay.end());
-  return draw(script, {picture.title, overlay.empty() ? 0 : 1, plots}, stem);
+  return draw(picture.title, overlay.empty() ? 0 : 1, {script, plots}, stem);
 }
 
 }  // namespace nlcwfs

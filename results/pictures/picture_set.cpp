@@ -2,8 +2,10 @@
 #include "results/pictures/picture_set.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 namespace nlcwfs {
@@ -14,19 +16,16 @@ std::vector<std::string> draw_pictures(const std::vector<PlannedPicture>& pictur
   tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
     reasons[i] = pictures[i].draw(folder.file(pictures[i].name));
   });
-  std::vector<std::string> notes;
+  std::vector<std::pair<std::string, std::vector<std::string>>> missing;  // reason and files
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    // Told with the first that has the same reason.
-    if (!reasons[i] || std::find(reasons.begin(), reasons.begin() + std::ptrdiff_t(i),
-                                 reasons[i]) != reasons.begin() + std::ptrdiff_t(i)) {
-      continue;
-    }
-    std::string names;
-    for (std::size_t j = i; j < pictures.size(); ++j) {
-      if (reasons[j] != reasons[i]) continue;
-      names += fmt::format("{}{}.svg", names.empty() ? "" : ", ", pictures[j].name);
-    }
-    notes.push_back(fmt::format("there is no {}: {}", names, *reasons[i]));
+    if (!reasons[i]) continue;
+    auto found = std::ranges::find(missing, *reasons[i], &decltype(missing)::value_type::first);
+    if (found == missing.end()) found = missing.insert(found, {*reasons[i], {}});
+    found->second.push_back(pictures[i].name + ".svg");
+  }
+  std::vector<std::string> notes;
+  for (const auto& [reason, files] : missing) {
+    notes.push_back(fmt::format("there is no {}: {}", fmt::join(files, ", "), reason));
   }
   return notes;
 }

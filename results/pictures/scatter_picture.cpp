@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -81,7 +78,7 @@ std::optional<std::string> write_picture(const ScatterPicture& picture,
         "title {}",
         symbol_types[symbol % symbol_types.size()], gnuplot_text(picture.symbols[symbol])));
   }
-  return draw(script, {picture.title, 2, plots}, stem);
+  return draw(picture.title, 2, {script, plots}, stem);
 }
 
 }  // namespace nlcwfs

@@ -1,7 +1,6 @@
 // The path of a search and its sensitivity are drawn.
 #include "results/pictures/search_pictures.hpp"
 
-#include "objectives/design_space.hpp"
 #include "results/pictures/curve_picture.hpp"
 #include "results/tables/csv_table.hpp"
 #include "results/text/axis_text.hpp"
@@ -15,23 +14,20 @@ namespace nlcwfs {
 namespace {
 
 CurvePicture picture_of(const OptimumRange& range) {
-  std::vector<double> values;
-  for (const ScannedValue& scanned : range.values) values.push_back(scanned.value);
-  const AxisUnit unit = axis_unit_of(unit_of_variable(range.name), values);
-  CurvePicture picture{.title = "",
-                       .x_label = label_of(range.name) + unit.suffix(),
-                       .y_label = "cost above the best design's",
-                       .curves = {},
-                       .band = std::pair(range.least / unit.size, range.greatest / unit.size)};
   Curve curve;
   for (const ScannedValue& scanned : range.values) {
-    curve.x.push_back(scanned.value / unit.size);
+    curve.x.push_back(scanned.value);
     curve.y.push_back(scanned.cost_difference.mean);
     curve.spread.push_back(scanned.cost_difference.standard_error);
   }
-  picture.curves = {std::move(curve),
-                    {.x = {range.best / unit.size}, .y = {0.0}, .colour = 1, .is_points = true}};
-  return picture;
+  const AxisUnit unit = axis_unit_of(unit_of_variable(range.name), curve.x);
+  for (double& x : curve.x) x /= unit.size;
+  return {.title = "",
+          .x_label = label_of(range.name) + unit.suffix(),
+          .y_label = "cost above the best design's",
+          .curves = {std::move(curve),
+                     {.x = {range.best / unit.size}, .y = {0.0}, .colour = 1, .is_points = true}},
+          .band = std::pair(range.least / unit.size, range.greatest / unit.size)};
 }
 
 }  // namespace
@@ -77,11 +73,7 @@ std::string sensitivity_table(const std::vector<OptimumRange>& ranges) {
       table.row().add(range.name).add(unit_of_variable(range.name)).add(scanned.value);
       for (const double number :
            {scanned.cost_difference.mean, scanned.cost_difference.standard_error}) {
-        if (std::isnan(number)) {
-          table.add("");
-        } else {
-          table.add(number);
-        }
+        table.add(std::isnan(number) ? "" : fmt::format("{}", number));
       }
       table.add(scanned.is_worse ? 1.0 : 0.0);
     }

@@ -116,6 +116,12 @@ Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr)
 
 }  // namespace
 
+std::string cell_text(const TableCell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{}", *number);
+  const auto* text = std::get_if<std::string>(&cell);
+  return text == nullptr ? "" : *text;
+}
+
 bool TableColumn::is_text() const {
   return std::ranges::any_of(
       cells, [](const TableCell& cell) { return std::holds_alternative<std::string>(cell); });
@@ -127,15 +133,7 @@ std::string FlatTable::csv() const {
   CsvTable table(names);
   for (std::size_t row = 0; row < rows; ++row) {
     table.row();
-    for (const TableColumn& column : columns) {
-      const TableCell& cell = column.cells[row];
-      if (const auto* number = std::get_if<double>(&cell)) {
-        table.add(*number);
-      } else {
-        const auto* text = std::get_if<std::string>(&cell);
-        table.add(text == nullptr ? "" : *text);
-      }
-    }
+    for (const TableColumn& column : columns) table.add(cell_text(column.cells[row]));
   }
   return table.text();
 }

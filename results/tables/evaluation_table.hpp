@@ -15,6 +15,10 @@ namespace nlcwfs {
 /// A cell of a table: nothing, a number or a text.
 using TableCell = std::variant<std::monostate, double, std::string>;
 
+/// What a cell has as text: of a number the shortest digits that read back as the same; of nothing
+/// nothing.
+std::string cell_text(const TableCell& cell);
+
 /// A column of a table, with a cell of every row.
 struct TableColumn {
   std::string name;  ///< without the unit, unless the member that it is of has one

@@ -1,7 +1,7 @@
 // Names and units of axes, for people.
 #include "results/text/axis_text.hpp"
 
-#include "objectives/design_space.hpp"
+#include "objectives/design_field.hpp"
 
 #include <algorithm>
 #include <array>

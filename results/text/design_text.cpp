@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -88,10 +89,7 @@ std::string choices_text(const DesignSpace& space, const SensorDesign& design) {
 }
 
 std::string performance_table(const std::vector<PerformanceColumn>& columns) {
-  struct Row {
-    std::string_view metric;
-    std::string_view heading;
-  };
+  using Row = std::pair<std::string_view, std::string_view>;  // metric and heading
   static constexpr std::array<Row, 7> rows{{{"residual_wfe_nm", "residual WFE, nm"},
                                             {"wrapped_wfe_nm", "wrapped WFE, nm"},
                                             {"total_wfe_nm", "total WFE, nm"},
@@ -101,21 +99,23 @@ std::string performance_table(const std::vector<PerformanceColumn>& columns) {
                                             {"seconds", "seconds per wavefront"}}};
   std::string table = fmt::format("  {:<24}", "");
   for (const PerformanceColumn& column : columns) table += fmt::format(" {:>22}", column.heading);
-  for (const Row& row : rows) {
-    table += fmt::format("\n  {:<24}", row.heading);
+  const auto add_row = [&](std::string_view heading, const auto& text_of) {
+    table += fmt::format("\n  {:<24}", heading);
     for (const PerformanceColumn& column : columns) {
-      table += fmt::format(" {:>22}",
-                           with_error(column.performance->mean_of(performance_metric(row.metric))));
+      table += fmt::format(" {:>22}", text_of(column));
     }
+  };
+  for (const auto& [metric, heading] : rows) {
+    add_row(heading, [metric = performance_metric(metric)](const PerformanceColumn& column) {
+      return with_error(column.performance->mean_of(metric));
+    });
   }
-  table += fmt::format("\n  {:<24}", "converged");
-  for (const PerformanceColumn& column : columns) {
-    table += fmt::format(" {:>20.1f} %", 100.0 * column.performance->converged_fraction());
-  }
-  table += fmt::format("\n  {:<24}", "cost");
-  for (const PerformanceColumn& column : columns) {
-    table += fmt::format(" {:>22}", with_error(mean_and_standard_error(column.costs)));
-  }
+  add_row("converged", [](const PerformanceColumn& column) {
+    return fmt::format("{:.1f} %", 100.0 * column.performance->converged_fraction());
+  });
+  add_row("cost", [](const PerformanceColumn& column) {
+    return with_error(mean_and_standard_error(column.costs));
+  });
   return table + '\n';
 }
 

@@ -14,7 +14,9 @@ using testing::Not;
 
 using Gnuplot = ScratchFolder;
 
-const GnuplotFigure figure{.title = "a title", .plots = {"x"}};
+std::optional<std::string> draw_line(const std::string& settings, const std::string& stem) {
+  return draw("a title", 0, {settings, {"x"}}, stem);
+}
 
 TEST(GnuplotText, IsOneTextWhateverItHolds) {
   EXPECT_EQ(gnuplot_text("it's"), "'it''s'");
@@ -25,13 +27,13 @@ TEST(GnuplotText, IsOneTextWhateverItHolds) {
 
 TEST_F(Gnuplot, RunsNothingThatALabelHolds) {
   const std::string label = gnuplot_text("m\nsystem 'touch a'\n`touch b`");
-  ASSERT_EQ(draw("set xlabel " + label + "\n", figure, "picture"), std::nullopt);
+  ASSERT_EQ(draw_line("set xlabel " + label + "\n", "picture"), std::nullopt);
   EXPECT_THAT(names_in("."), ElementsAre("picture.png", "picture.svg"));
 }
 
 TEST_F(Gnuplot, TakesNamesLiterally) {
   for (const char* name : {"|touch a;x", "<touch b;x", "~", "%d", "`touch c`"}) {
-    ASSERT_EQ(draw("", figure, name), std::nullopt) << name;
+    ASSERT_EQ(draw_line("", name), std::nullopt) << name;
     const std::string stem = name;
     EXPECT_THAT(names_in("."), ElementsAre(stem + ".png", stem + ".svg"));
     std::filesystem::remove(stem + ".png");
@@ -43,7 +45,7 @@ TEST_F(Gnuplot, WritesThroughNoLink) {
   for (const char* part : {"picture.gnuplot.part", "picture.log.part", "picture.svg"}) {
     std::filesystem::create_symlink("target", part);
   }
-  draw("", figure, "picture");
+  draw_line("", "picture");
   EXPECT_THAT(names_in("."), Not(testing::Contains("target")));
 }
 
