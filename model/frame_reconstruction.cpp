@@ -59,8 +59,10 @@ PlaneConsistency consistency_of(const Image<double>& measured, const Image<doubl
   }
   const double count = result.measured_pixels;
   result.relative_rms = std::sqrt(std::max(mm - 2.0 * mp + pp, 0.0) / pp);
-  result.correlation =
-      (mp - m * p / count) / std::sqrt((mm - m * m / count) * (pp - p * p / count));
+  const double spreads = (mm - m * m / count) * (pp - p * p / count);
+  // What is left of equal values is rounding.
+  if (spreads > 1e-24 * mm * pp) result.correlation = (mp - m * p / count) / std::sqrt(spreads);
+  result.measured_share = p / predicted.sum();
   result.displacement = displacement_of(measured, predicted);
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include "model/gerchberg_saxton.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,10 @@ namespace nlcwfs {
 struct PlaneConsistency {
   /// RMS of measured less predicted intensity over the RMS of the predicted.
   double relative_rms = 0.0;
-  double correlation = 0.0;  ///< Pearson's, of measured and predicted intensity
+  /// Pearson's, of measured and predicted intensity; none where one of them is the same everywhere.
+  std::optional<double> correlation = {};
+  /// Share of the predicted light in the detector's window that fell on the measured pixels.
+  double measured_share = 0.0;
   /// How much light the plane got: the counts in the frame that a pupil of unit amplitude would
   /// make, if all of its light fell on the detector.
   double light = 0.0;

@@ -48,10 +48,18 @@ SetResult reconstruct_set(const GerchbergSaxton<double>& reconstructor, const Se
   const double photons = design.detector.photons_per_frame();
   for (std::size_t plane = 0; plane < design.planes.size(); ++plane) {
     const PlaneConsistency& consistency = result.frames.planes[plane];
+    result.background.push_back(frame_background(
+        measured.sets[set][plane], design.detector.pupil_pixels, measured.axes[plane]));
+    const auto& background = result.background.back();
     double noise = 0.0;
     if (photons > 0.0) {
-      const Image<double> predicted =
-          result.frames.measured[plane].isNaN().select(unmeasured, result.frames.predicted[plane]);
+      // The noise of the light alone.
+      const double level =
+          background && background->is_significant()
+              ? background->level * reconstructor.pupil_energy() / consistency.light
+              : 0.0;
+      const Image<double> predicted = result.frames.measured[plane].isNaN().select(
+          unmeasured, (result.frames.predicted[plane] - level).max(0.0));
       noise = relative_noise(
           predicted, photons * light_share(result.frames, plane) / reconstructor.pupil_energy(),
           design.detector.read_noise);
@@ -60,6 +68,31 @@ SetResult reconstruct_set(const GerchbergSaxton<double>& reconstructor, const Se
     result.misfit.push_back(misfit_beyond(consistency.relative_rms, noise));
   }
   return result;
+}
+
+void add_what_may_be_missing(PlaneMeans& means, const FrameRun& run, std::size_t plane) {
+  const auto all_have = [&](const auto& has) { return std::ranges::all_of(run.sets, has); };
+  for (const SetResult& set : run.sets) {
+    means.measured_share = std::min(means.measured_share, set.frames.planes[plane].measured_share);
+  }
+  if (all_have(
+          [&](const SetResult& set) { return set.frames.planes[plane].correlation.has_value(); })) {
+    means.correlation = mean_over_sets(
+        run, [&](const SetResult& set) { return *set.frames.planes[plane].correlation; });
+  }
+  if (!all_have([&](const SetResult& set) { return set.background[plane].has_value(); })) return;
+  const auto mean_of = [&](double FrameBackground::*figure) {
+    return mean_over_sets(run,
+                          [&](const SetResult& set) { return (*set.background[plane]).*figure; })
+        .mean;
+  };
+  means.background =
+      FrameBackground{mean_of(&FrameBackground::level), mean_of(&FrameBackground::error)};
+  const double light = mean_over_sets(run, [&](const SetResult& set) {
+                         return set.frames.planes[plane].light;
+                       }).mean;
+  const double width = double(run.measured.width());
+  means.background_share = means.background->level * width * width / light;
 }
 
 }  // namespace
@@ -97,15 +130,18 @@ std::vector<PlaneMeans> plane_means(const FrameRun& run) {
         .relative_rms = mean_of(&PlaneConsistency::relative_rms),
         .noise = {},
         .misfit = mean_over_sets(run, [&](const SetResult& set) { return set.misfit[plane]; }),
-        .correlation = mean_of(&PlaneConsistency::correlation),
+        .correlation = {},
         .light_share = mean_over_sets(
             run, [&](const SetResult& set) { return light_share(set.frames, plane); }),
         .captured_energy = mean_of(&PlaneConsistency::captured_energy),
         .x = mean_of([](const PlaneConsistency& of) { return of.displacement.x(); }),
-        .y = mean_of([](const PlaneConsistency& of) { return of.displacement.y(); })};
+        .y = mean_of([](const PlaneConsistency& of) { return of.displacement.y(); }),
+        .measured_share = 1.0,
+        .background = {}};
     if (!run.sets.front().noise.empty()) {
       means.noise = mean_over_sets(run, [&](const SetResult& set) { return set.noise[plane]; });
     }
+    add_what_may_be_missing(means, run, plane);
     planes.push_back(means);
   }
   return planes;

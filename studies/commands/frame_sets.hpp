@@ -1,6 +1,7 @@
 // Sets of measured frames are reconstructed.
 #pragma once
 
+#include "model/frame_background.hpp"
 #include "model/frame_reconstruction.hpp"
 #include "studies/settings/measured_frames.hpp"
 
@@ -14,6 +15,8 @@ struct SetResult {
   /// Relative RMS that noise alone leaves, per plane; none if not known.
   std::vector<double> noise;
   std::vector<double> misfit;  ///< relative RMS beyond what noise explains, per plane
+  /// What is left of a background, per plane, in the file's unit; none without an unlit border.
+  std::vector<std::optional<FrameBackground>> background;
 };
 
 /// All sets; after an interrupt those before the first that is not done, one at least.
@@ -39,14 +42,26 @@ MeanAndError mean_over_sets(const FrameRun& run, const Metric& metric) {
 
 /// A plane's figures, means over the sets.
 struct PlaneMeans {
-  MeanAndError relative_rms;          ///< see PlaneConsistency
-  std::optional<MeanAndError> noise;  ///< see SetResult
-  MeanAndError misfit;                ///< see SetResult
-  MeanAndError correlation;           ///< see PlaneConsistency
-  MeanAndError light_share;           ///< of the light on all planes
-  MeanAndError captured_energy;       ///< see PlaneConsistency
-  MeanAndError x;                     ///< pixels that the plane stands off
-  MeanAndError y;                     ///< the same
+  MeanAndError relative_rms;                ///< see PlaneConsistency
+  std::optional<MeanAndError> noise;        ///< see SetResult
+  MeanAndError misfit;                      ///< see SetResult
+  std::optional<MeanAndError> correlation;  ///< see PlaneConsistency; none where a set has none
+  MeanAndError light_share;                 ///< of the light on all planes
+  MeanAndError captured_energy;             ///< see PlaneConsistency
+  MeanAndError x;                           ///< pixels that the plane stands off
+  MeanAndError y;                           ///< the same
+  double measured_share = 0.0;              ///< the least of the sets', see PlaneConsistency
+  /// The mean of the sets', with the mean of their errors: what the light's structure adds is much
+  /// the same in all of them. None where a set has none.
+  std::optional<FrameBackground> background;
+  double background_share = 0.0;  ///< of the plane's light: what it adds on the whole detector
+
+  /// Whether it has a background that matters.
+  bool has_background() const {
+    return background && background->is_significant() && std::abs(background_share) > 0.02;
+  }
+  /// Whether too little was measured to agree or not.
+  bool is_mute() const { return !correlation || measured_share < 0.5; }
 };
 
 /// Of each plane, in visiting order.

@@ -18,13 +18,13 @@ namespace {
 constexpr double good_misfit = 0.1;
 constexpr double poor_misfit = 0.3;
 
-std::string_view verdict_of(double worst_misfit) {
-  if (worst_misfit <= good_misfit) return "agree";
-  return worst_misfit <= poor_misfit ? "agree in part" : "disagree";
-}
-
 double rms_nm_of(const SetResult& set) { return 1e9 * set.wavefront_rms; }
 double loops_of(const SetResult& set) { return double(set.frames.reconstruction.loops); }
+
+std::ptrdiff_t unconverged_sets(const FrameRun& run) {
+  return std::ranges::count_if(
+      run.sets, [](const SetResult& set) { return !set.frames.reconstruction.converged; });
+}
 
 std::size_t worst_plane(const std::vector<PlaneMeans>& planes) {
   const auto worst = std::ranges::max_element(
@@ -32,8 +32,87 @@ std::size_t worst_plane(const std::vector<PlaneMeans>& planes) {
   return static_cast<std::size_t>(worst - planes.begin());
 }
 
-Json summary_of(const FrameRun& run, double fried_parameter,
-                const std::vector<PlaneMeans>& planes) {
+/// Whether measured and predicted images agree, and why.
+struct Judgement {
+  std::string_view verdict;
+  std::string reason;
+  std::string advice = {};  ///< lines on what to do
+};
+
+/// @pre a plane has the largest misfit
+Judgement judgement_of_misfit(const FrameRun& run, const PlaneMeans& plane, std::size_t number) {
+  const double misfit = plane.misfit.mean;
+  Judgement judgement{
+      misfit > poor_misfit ? "disagree" : "agree in part",
+      fmt::format(
+          "plane {} differs by {:.0f} %{}", number, 100.0 * plane.relative_rms.mean,
+          plane.noise ? fmt::format(", noise alone by {:.0f} %", 100.0 * plane.noise->mean) : "")};
+  if (plane.correlation && plane.correlation->mean > 0.99 && !run.measured.throughputs.empty()) {
+    judgement.advice =
+        "  Its pattern is right, its brightness is not: leave frames.flux away, then each "
+        "plane's light is found.\n";
+    return judgement;
+  }
+  judgement.advice =
+      misfit > poor_misfit
+          ? "  Check the signs and the order of sensor.planes against the frames, "
+            "frames.background,\n  detector.pupil_pixels, telescope.diameter and "
+            "telescope.wavelength.\n"
+          : "  Check the distances in sensor.planes, frames.centre, frames.background and "
+            "detector.pupil_pixels.\n";
+  if (!plane.noise) {
+    judgement.advice +=
+        "  If little light is the reason, set detector.photons: then noise is allowed for.\n";
+  }
+  return judgement;
+}
+
+Judgement judgement_of(const FrameRun& run, const std::vector<PlaneMeans>& planes) {
+  const auto number_of = [&](auto plane) { return plane - planes.begin() + 1; };
+  const auto lifted = std::ranges::max_element(planes, {}, [](const PlaneMeans& plane) {
+    return plane.has_background() ? std::abs(plane.background_share) : 0.0;
+  });
+  if (lifted->has_background()) {
+    return {"disagree",
+            fmt::format("plane {} has {} {}in each pixel where no light falls, {:.3g} % of its "
+                        "light",
+                        number_of(lifted),
+                        with_error({lifted->background->level, lifted->background->error}),
+                        run.measured.unit.empty() ? "" : run.measured.unit + ' ',
+                        100.0 * lifted->background_share),
+            "  The phase has explained it by aberrations of its own making: subtract it too, by "
+            "frames.background.\n"};
+  }
+  const std::size_t worst = worst_plane(planes);
+  if (planes[worst].misfit.mean > poor_misfit) {
+    return judgement_of_misfit(run, planes[worst], worst + 1);
+  }
+  if (const auto mute = std::ranges::find_if(planes, &PlaneMeans::is_mute); mute != planes.end()) {
+    return {"tell too little",
+            fmt::format("plane {} was measured where {:.0f} % of its light falls{}",
+                        number_of(mute), 100.0 * mute->measured_share,
+                        mute->correlation ? "" : ", or is the same everywhere"),
+            "  Check frames.bad_pixels, frames.saturation and the frames themselves.\n"};
+  }
+  if (planes[worst].misfit.mean > good_misfit) {
+    return judgement_of_misfit(run, planes[worst], worst + 1);
+  }
+  const auto unconverged = unconverged_sets(run);
+  if (unconverged > 0) {
+    return {"agree in part",
+            fmt::format("{} of {} had not converged", unconverged, run.sets.size()),
+            "  Raise reconstruction.max_loops, or try reconstruction.relaxation.\n"};
+  }
+  return {"agree",
+          fmt::format("plane {} differs most, by {:.1f} %{}", worst + 1,
+                      100.0 * planes[worst].relative_rms.mean,
+                      planes[worst].noise ? ", as its noise lets expect" : ""),
+          "(They would if every sign of sensor.planes were wrong: then the phase has the wrong "
+          "sign.)\n"};
+}
+
+Json summary_of(const FrameRun& run, double fried_parameter, const std::vector<PlaneMeans>& planes,
+                const Judgement& judgement) {
   Json sets = Json::array();
   for (const SetResult& set : run.sets) {
     const Reconstruction& reconstruction = set.frames.reconstruction;
@@ -49,7 +128,12 @@ Json summary_of(const FrameRun& run, double fried_parameter,
         {{"relative_rms", to_json(plane.relative_rms)},
          {"noise_relative_rms", plane.noise ? to_json(*plane.noise) : Json(nullptr)},
          {"misfit", to_json(plane.misfit)},
-         {"correlation", to_json(plane.correlation)},
+         {"correlation", plane.correlation ? to_json(*plane.correlation) : Json(nullptr)},
+         {"background",
+          plane.background ? to_json(MeanAndError{plane.background->level, plane.background->error})
+                           : Json(nullptr)},
+         {"background_share", plane.background ? Json(plane.background_share) : Json(nullptr)},
+         {"measured_share", plane.measured_share},
          {"light_share", to_json(plane.light_share)},
          {"captured_energy", to_json(plane.captured_energy)},
          {"displacement_x_pixels", to_json(plane.x)},
@@ -69,7 +153,8 @@ Json summary_of(const FrameRun& run, double fried_parameter,
           {"converged_fraction", mean_over_sets(run, converged).mean},
           {"wavefront_rms_nm", to_json(mean_over_sets(run, rms_nm_of))},
           {"consistency",
-           {{"verdict", verdict_of(planes[worst].misfit.mean)},
+           {{"verdict", judgement.verdict},
+            {"reason", judgement.reason},
             {"worst_plane", worst + 1},
             {"misfit", planes[worst].misfit.mean},
             {"planes", plane_objects}}},
@@ -82,59 +167,20 @@ std::string planes_text(const FrameRun& run, const std::vector<PlaneMeans>& plan
                                  "correlation", "its light", "captured", "stands off, px");
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const PlaneMeans& plane = planes[i];
-    text += fmt::format(
-        "{:>8}  {:>11}  {:>11.1f} %  {:>11}  {:>11.4f}  {:>7.1f} %  {:>7.1f} %  {:>14}\n", i + 1,
-        format_length(run.design.planes[i]), 100.0 * plane.relative_rms.mean,
-        plane.noise ? fmt::format("{:.1f} %", 100.0 * plane.noise->mean) : "not known",
-        plane.correlation.mean, 100.0 * plane.light_share.mean, 100.0 * plane.captured_energy.mean,
-        fmt::format("{:.2f}, {:.2f}", plane.x.mean, plane.y.mean));
-  }
-  return text;
-}
-
-/// What may be wrong, one line for each.
-std::string hints(const FrameRun& run, const std::vector<PlaneMeans>& planes) {
-  const std::size_t worst = worst_plane(planes);
-  const double misfit = planes[worst].misfit.mean;
-  const bool has_noise = planes[worst].noise.has_value();
-  if (misfit <= good_misfit) {
-    return fmt::format(
-        "Measured and predicted images agree; plane {} differs most, by {:.1f} %{}.\n"
-        "(They would if every sign of sensor.planes were wrong: then the phase has the wrong "
-        "sign.)\n",
-        worst + 1, 100.0 * planes[worst].relative_rms.mean,
-        has_noise ? ", as its noise lets expect" : "");
-  }
-  std::string text = fmt::format(
-      "Measured and predicted images {}: plane {} differs by {:.0f} %{}.\n", verdict_of(misfit),
-      worst + 1, 100.0 * planes[worst].relative_rms.mean,
-      has_noise ? fmt::format(", noise alone by {:.0f} %", 100.0 * planes[worst].noise->mean) : "");
-  const bool is_scale = planes[worst].correlation.mean > 0.99 && !run.measured.throughputs.empty();
-  if (is_scale) {
-    return text +
-           "  Its pattern is right, its brightness is not: leave frames.flux away, then each "
-           "plane's light is found.\n";
-  }
-  if (misfit > poor_misfit) {
     text +=
-        "  Check the signs and the order of sensor.planes against the frames, "
-        "frames.background,\n  detector.pupil_pixels, telescope.diameter and "
-        "telescope.wavelength.\n";
-  } else {
-    text +=
-        "  Check the distances in sensor.planes, frames.centre, frames.background and "
-        "detector.pupil_pixels.\n";
-  }
-  if (!has_noise) {
-    text += "  If little light is the reason, set detector.photons: then noise is allowed for.\n";
+        fmt::format("{:>8}  {:>11}  {:>11.1f} %  {:>11}  {:>11}  {:>7.1f} %  {:>7.1f} %  {:>14}\n",
+                    i + 1, format_length(run.design.planes[i]), 100.0 * plane.relative_rms.mean,
+                    plane.noise ? fmt::format("{:.1f} %", 100.0 * plane.noise->mean) : "not known",
+                    plane.correlation ? fmt::format("{:.4f}", plane.correlation->mean) : "none",
+                    100.0 * plane.light_share.mean, 100.0 * plane.captured_energy.mean,
+                    fmt::format("{:.2f}, {:.2f}", plane.x.mean, plane.y.mean));
   }
   return text;
 }
 
 std::string sets_text(const FrameRun& run) {
   std::string text;
-  const auto unconverged = std::ranges::count_if(
-      run.sets, [](const SetResult& set) { return !set.frames.reconstruction.converged; });
+  const auto unconverged = unconverged_sets(run);
   if (run.sets.size() == 1) {
     const SetResult& set = run.sets.front();
     text = fmt::format("wavefront RMS {:.4g} nm after {} loops\n", 1e9 * set.wavefront_rms,
@@ -173,28 +219,25 @@ void run_reconstruct(const Request& request) {
   const FrameRun run{telescope, design, measured, sets};
   const std::vector<PlaneMeans> planes = plane_means(run);
   const std::vector<std::string> notes = write_frame_files(run, record.folder());
-  record.write_summary(summary_of(run, seeing.fried_parameter, planes));
+  const Judgement judgement = judgement_of(run, planes);
+  record.write_summary(summary_of(run, seeing.fried_parameter, planes, judgement));
 
   for (const std::string& note : notes) record.print("note: {}\n", note);
   record.print("{}\n\n", telescope_line(telescope, seeing));
   record.print("{} of {} x {} pixels in {} planes, {}", configuration.text("frames.file"),
                measured.width(), measured.width(), design.planes.size(), sets_text(run));
-  record.print("\n{}\n{}", planes_text(run, planes), hints(run, planes));
+  record.print("\n{}\nMeasured and predicted images {}: {}.\n{}", planes_text(run, planes),
+               judgement.verdict, judgement.reason, judgement.advice);
   record.print("\n");
   record.close();
 }
 
 std::string of_reconstruct(const Json& summary) {
   const Json& consistency = summary.at("consistency");
-  const double misfit = number_from_json(consistency.at("misfit"));
   return fmt::format(
       "A wavefront of {} nm RMS after {} loops. Measured and predicted images {}: {}.",
       figure_text(summary, "wavefront_rms_nm"), figure_text(summary, "loops"),
-      consistency.at("verdict").get<std::string>(),
-      misfit > 0.0 ? fmt::format("in plane {} they differ most, by {:.2g} % beyond what noise "
-                                 "explains",
-                                 integer_from_json(consistency.at("worst_plane")), 100.0 * misfit)
-                   : "noise explains all their differences");
+      consistency.at("verdict").get<std::string>(), consistency.at("reason").get<std::string>());
 }
 
 }  // namespace

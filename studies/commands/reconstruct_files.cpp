@@ -61,11 +61,13 @@ void write_images(const std::string& name, const FrameRun& run, const OutputFold
 std::string consistency_table(const FrameRun& run) {
   CsvTable table({"set", "plane", "distance_m", "relative_rms", "noise_relative_rms", "misfit",
                   "correlation", "flux", "captured_energy", "displacement_x_pixels",
-                  "displacement_y_pixels", "centre_x_pixels", "centre_y_pixels", "bad_pixels"});
+                  "displacement_y_pixels", "centre_x_pixels", "centre_y_pixels", "bad_pixels",
+                  "background", "background_error"});
   for (std::size_t set = 0; set < run.sets.size(); ++set) {
     const SetResult& result = run.sets[set];
     for (std::size_t plane = 0; plane < run.design.planes.size(); ++plane) {
       const PlaneConsistency& consistency = result.frames.planes[plane];
+      const auto& background = result.background[plane];
       const double middle = 0.5 * double(run.measured.width() + 1);
       table.row()
           .add(double(set + 1))
@@ -81,7 +83,9 @@ std::string consistency_table(const FrameRun& run) {
           .add(consistency.displacement.y())
           .add(run.measured.axes[plane].x() + middle)
           .add(run.measured.axes[plane].y() + middle)
-          .add(double(run.measured.width() * run.measured.width() - consistency.measured_pixels));
+          .add(double(run.measured.width() * run.measured.width() - consistency.measured_pixels))
+          .add(background ? std::optional(background->level) : std::nullopt)
+          .add(background ? std::optional(background->error) : std::nullopt);
     }
   }
   return table.text();

@@ -226,7 +226,53 @@ TEST_F(Reconstruct, SaysThatPlanesOutOfOrderDisagree) {
 
 TEST_F(Reconstruct, NeedsItsBackground) {
   EXPECT_THAT(reconstruct("run", {"--frames.background", "0"}).output,
-              AllOf(Not(HasSubstr("images agree;")), HasSubstr("frames.background")));
+              AllOf(Not(HasSubstr("images agree:")), HasSubstr("frames.background")));
+}
+
+TEST_F(Reconstruct, ABackgroundThatIsLeftIsNoAgreement) {
+  // 1000 to 2500 counts are the pupil's intensity: half a percent of it doubles the error.
+  for (const char* subtracted : {"15", "25", "0", "-80"}) {
+    const std::string folder = fmt::format("run{}", subtracted);
+    EXPECT_THAT(reconstruct(folder, {"--frames.background", subtracted}).output,
+                AllOf(HasSubstr("Measured and predicted images disagree: plane "),
+                      HasSubstr("adu in each pixel where no light falls")));
+    const nlohmann::json consistency = summary(folder)["consistency"];
+    EXPECT_EQ(consistency["verdict"], "disagree");
+    for (const nlohmann::json& plane : consistency["planes"]) {
+      const nlohmann::json& found = plane["background"];
+      EXPECT_NEAR(found["mean"], background - std::stod(subtracted),
+                  4.0 * found["standard_error"].get<double>());
+    }
+  }
+}
+
+TEST_F(Reconstruct, APlaneThatSaysNothingAgreesWithNothing) {
+  FitsCube cube = frames(1);
+  cube.slices[2].setConstant(background + 40.0);
+  std::filesystem::remove("frames.fits");
+  write_fits_cube("frames.fits", cube);
+  EXPECT_THAT(reconstruct("flat").output,
+              AllOf(Not(HasSubstr("images agree:")), Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+  EXPECT_TRUE(summary("flat")["consistency"]["planes"][2]["correlation"].is_null());
+
+  std::filesystem::remove("frames.fits");
+  write_fits_cube("frames.fits", frames(1));
+  for (const int good_pixels : {1, 2, 100}) {
+    FitsCube bad{.unit = "",
+                 .slices = std::vector(4, Image<double>(Image<double>::Zero(128, 128)))};
+    bad.slices[1].setOnes();
+    bad.slices[1].row(64).segment(14, good_pixels).setZero();
+    const std::string folder = fmt::format("with-{}", good_pixels);
+    write_fits_cube(folder + ".fits", bad);
+    EXPECT_THAT(reconstruct(folder, {"--frames.bad_pixels", folder + ".fits"}).output,
+                AllOf(HasSubstr("images tell too little: plane 2 was measured where"),
+                      Not(HasSubstr("nan"))));
+  }
+}
+
+TEST_F(Reconstruct, SetsThatHaveNotConvergedDoNotAgree) {
+  EXPECT_THAT(reconstruct("run", {"--reconstruction.max_loops", "2"}).output,
+              AllOf(Not(HasSubstr("images agree:")), HasSubstr("2 of 2 had not converged")));
 }
 
 TEST_F(Reconstruct, TakesCalibrationFiles) {
