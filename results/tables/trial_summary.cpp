@@ -4,6 +4,9 @@
 #include "results/tables/csv_table.hpp"
 #include "results/text/design_text.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace nlcwfs {
@@ -17,6 +20,8 @@ Json to_json(const TriedDesign& tried, const DesignTrial& trial) {
   json["cost"] = to_json(mean_and_standard_error(tried.costs));
   json["violation"] = tried.violation;
   json["performance"] = to_json(pooled(tried.performances));
+  const std::string futility = futility_text(tried, trial);
+  json["futility"] = futility.empty() ? Json(nullptr) : Json(futility);
   if (trial.conditions().size() == 1) return json;
   for (std::size_t k = 0; k < trial.conditions().size(); ++k) {
     const Condition& condition = trial.conditions()[k];
@@ -27,6 +32,48 @@ Json to_json(const TriedDesign& tried, const DesignTrial& trial) {
          {"performance", to_json(tried.performances[k])}});
   }
   return json;
+}
+
+std::string futility_text(const TriedDesign& tried, const DesignTrial& trial) {
+  constexpr double fewest_photons = 100.0;
+  constexpr double share_of_random = 0.8;
+  constexpr double least_strehl = 0.2;
+  for (std::size_t k = 0; k < trial.conditions().size(); ++k) {
+    const Condition& condition = trial.conditions()[k];
+    const double photons = condition.lit(tried.design).detector.photons_per_frame();
+    const double random_nm = 1e9 * condition.simulation->telescope().wavelength / std::sqrt(12.0);
+    const MeanAndError wrapped =
+        tried.performances[k].mean_of(performance_metric("wrapped_wfe_nm"));
+    const std::string where =
+        trial.conditions().size() == 1 ? "" : fmt::format(" under {}", condition.name);
+    if (photons > 0.0 && photons < fewest_photons) {
+      return fmt::format(
+          "This design does not work as a sensor{}: {:g} photons a frame tell next to nothing. It "
+          "takes more light (detector.photons)",
+          where, photons);
+    }
+    const MeanAndError strehl = tried.performances[k].mean_of(performance_metric("field_strehl"));
+    if (wrapped.mean < share_of_random * random_nm && strehl.mean > least_strehl) continue;
+    return fmt::format(
+        "This design does not work as a sensor{}: its wrapped error, {} nm, and field-estimated "
+        "Strehl ratio, {}, are near those of a random phase, {:.0f} nm and 0. Try a ramp of the "
+        "relaxation (reconstruction.relaxation = 0.5:0), more loops (reconstruction.max_loops), "
+        "more pixels (detector.pupil_pixels) or other planes",
+        where, with_error(wrapped), with_error(strehl), random_nm);
+  }
+  return {};
+}
+
+std::string design_warnings(const TriedDesign& tried, const DesignTrial& trial) {
+  std::string warnings = futility_text(tried, trial);
+  if (!warnings.empty()) warnings = fmt::format("warning: {}\n", warnings);
+  const Performance performance = pooled(tried.performances);
+  if (std::ranges::none_of(performance.screens, &ScreenPerformance::converged)) {
+    warnings += fmt::format(
+        "warning: none of {} wavefronts converged in reconstruction.max_loops = {} loops\n",
+        performance.screens.size(), tried.design.reconstruction.max_loops);
+  }
+  return warnings + captured_energy_warnings(tried.design, performance);
 }
 
 std::string conditions_table(const TriedDesign& tried, const DesignTrial& trial) {

@@ -33,17 +33,18 @@ struct Prediction {
   double standard_errors() const { return difference().mean / difference().standard_error; }
 };
 
-std::array<Prediction, 2> predictions_of(const ScalingLaw& law, double d_over_r0,
-                                         const Telescope& telescope) {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> predicted_metrics{
+    {{"residual_wfe_nm", "residual WFE, nm"}, {"fractional_loops", "fractional loops"}}};
+
+std::vector<Prediction> predictions_of(const ScalingLaw& law, double d_over_r0,
+                                       const Telescope& telescope) {
   const double nm_per_wavelength = 1e9 * telescope.wavelength;
   const MeanAndError wavelengths = law.residual_wfe.predict(d_over_r0);
-  return {{{.metric = "residual_wfe_nm",
-            .heading = "residual WFE, nm",
-            .predicted = {wavelengths.mean * nm_per_wavelength,
-                          wavelengths.standard_error * nm_per_wavelength}},
-           {.metric = "fractional_loops",
-            .heading = "fractional loops",
-            .predicted = law.fractional_loops.predict(d_over_r0)}}};
+  const auto& [wfe, loops] = predicted_metrics;
+  return {{wfe.first,
+           wfe.second,
+           {wavelengths.mean * nm_per_wavelength, wavelengths.standard_error * nm_per_wavelength}},
+          {loops.first, loops.second, law.fractional_loops.predict(d_over_r0)}};
 }
 
 /// A key's value for people, rounded so that equal values are equal texts.
@@ -67,21 +68,31 @@ std::string shown_value(const Configuration& configuration, const ConfigurationK
   }
 }
 
-/// A line for each setting that the law's designs had otherwise, and that decides what a design
-/// reaches. Equal designs at different telescopes have equal optical paths in wavelengths and equal
-/// outer scales in diameters.
-std::vector<std::string> differing_conditions(const Configuration& configuration,
-                                              const Configuration& conditions) {
+/// A setting that the law's designs had otherwise.
+struct Difference {
+  std::string text;
+  /// Whether a design reaches something else with it: of what is left, another tolerance or another
+  /// cost, the effect is small.
+  bool is_decisive;
+};
+
+/// Equal designs at different telescopes have equal optical paths in wavelengths and equal outer
+/// scales in diameters.
+std::vector<Difference> differing_conditions(const Configuration& configuration,
+                                             const Configuration& conditions) {
   const Telescope here = telescope_of(configuration);
   const Telescope there = telescope_of(conditions);
-  std::vector<std::string> notes;
+  std::vector<Difference> differences;
   for (const ConfigurationKey& key : configuration_keys()) {
-    const bool decides =
-        key.name.starts_with("detector.") || key.name.starts_with("reconstruction.") ||
-        key.name.starts_with("objective.") || key.name == "telescope.central_obscuration" ||
-        key.name == "seeing.outer_scale" || key.name == "simulation.truth" ||
-        key.name == "simulation.pupil_samples" || key.name == "verify.truth_factor";
-    if (!decides) continue;
+    const bool is_decisive =
+        key.name.starts_with("detector.") || key.name.starts_with("source.") ||
+        (key.name.starts_with("reconstruction.") && key.name != "reconstruction.tolerance") ||
+        key.name == "telescope.central_obscuration" || key.name == "seeing.outer_scale" ||
+        key.name == "simulation.truth" || key.name == "simulation.pupil_samples";
+    if (!is_decisive && !key.name.starts_with("objective.") &&
+        key.name != "reconstruction.tolerance" && key.name != "verify.truth_factor") {
+      continue;
+    }
     const std::string asked = shown_value(configuration, key, 1.0);
     const std::string laws =
         shown_value(conditions, key,
@@ -89,15 +100,16 @@ std::vector<std::string> differing_conditions(const Configuration& configuration
                                                      : here.wavelength / there.wavelength);
     if (asked == laws) continue;
     const bool is_noiseless = key.name == "detector.photons" && laws == "0";
-    notes.push_back(fmt::format("{} is {}, where the law's designs have {}{}", key.name, asked,
-                                is_noiseless ? "no photon noise" : laws,
-                                key.kind == Kind::length ? " at this telescope" : ""));
+    differences.push_back({fmt::format("{} is {}, where the law's designs have {}{}", key.name,
+                                       asked, is_noiseless ? "no photon noise" : laws,
+                                       key.kind == Kind::length ? " at this telescope" : ""),
+                           is_decisive});
   }
-  return notes;
+  return differences;
 }
 
 /// What is predicted, beside what was simulated where the design was verified.
-std::string predictions_table(const std::array<Prediction, 2>& predictions) {
+std::string predictions_table(const std::vector<Prediction>& predictions) {
   const bool verified = predictions[0].simulated.has_value();
   std::string table = fmt::format("  {:<24} {:>22}", "", "predicted");
   if (verified) table += fmt::format(" {:>22} {:>22}", "simulated", "simulated - predicted");
@@ -112,11 +124,11 @@ std::string predictions_table(const std::array<Prediction, 2>& predictions) {
   return table + '\n';
 }
 
-/// @param verified      null where it is not
-/// @param is_elsewhere  whether the law's designs had other settings
+/// @param predictions  none where the law says nothing of this design
+/// @param verified     null where it is not
 void print_advice(const LawFile& file, const Telescope& telescope, const Seeing& seeing,
-                  const SensorDesign& design, const std::array<Prediction, 2>& predictions,
-                  const Performance* verified, bool is_elsewhere) {
+                  const SensorDesign& design, const std::vector<Prediction>& predictions,
+                  const Performance* verified, std::string_view warnings) {
   const double d_over_r0 = telescope.diameter / seeing.fried_parameter;
   const MeanAndError near = file.law.z_near_talbot.predict(d_over_r0);
   const MeanAndError far = file.law.far_fresnel_number.predict(d_over_r0);
@@ -124,18 +136,26 @@ void print_advice(const LawFile& file, const Telescope& telescope, const Seeing&
              telescope_line(telescope, seeing), planes_table(design, telescope, seeing, verified));
   fmt::print("The law knows the near pair's distance to {:.0f} %, the far pair's to {:.0f} %.\n\n",
              100.0 * near.standard_error / near.mean, 100.0 * far.standard_error / far.mean);
-  fmt::print("By the law of {} searches, D/r0 = {:g} to {:g}{}{}:\n{}", file.data.size(),
-             file.law.least_d_over_r0, file.law.greatest_d_over_r0,
-             is_elsewhere ? ", for its own settings (see the notes)" : "",
-             verified ? fmt::format(", and on {} fresh screens", verified->screens.size()) : "",
-             predictions_table(predictions));
-  if (file.law.extrapolates(d_over_r0)) {
+  if (predictions.empty()) {
     fmt::print(
-        "warning: D/r0 = {:.4g} is outside that range: an extrapolation, whose error is larger "
-        "than stated\n",
-        d_over_r0);
+        "What it reaches is not predicted: the law is of {} searches, D/r0 = {:g} to {:g}, under\n"
+        "other conditions (see the notes). Simulate it{}, or search from it.\n",
+        file.data.size(), file.law.least_d_over_r0, file.law.greatest_d_over_r0,
+        verified ? ", as it was" : " with --verify");
+    if (verified) {
+      fmt::print("On {} fresh screens:\n", verified->screens.size());
+      for (const auto& [metric, heading] : predicted_metrics) {
+        fmt::print("  {:<24} {:>22}\n", heading,
+                   with_error(verified->mean_of(performance_metric(std::string(metric)))));
+      }
+    }
+  } else {
+    fmt::print("By the law of {} searches, D/r0 = {:g} to {:g}{}:\n{}", file.data.size(),
+               file.law.least_d_over_r0, file.law.greatest_d_over_r0,
+               verified ? fmt::format(", and on {} fresh screens", verified->screens.size()) : "",
+               predictions_table(predictions));
   }
-  if (verified) fmt::print("{}", captured_energy_warnings(design, *verified));
+  fmt::print("{}", warnings);
 }
 
 /// Long, as what is simulated is optional in each of its steps.
@@ -151,7 +171,17 @@ void run_advise(const Request& request) {
   SensorDesign design = design_of(configuration);
   design.planes = file.law.planes(telescope, seeing.fried_parameter);
   design.validate(telescope);
-  std::vector<std::string> notes = differing_conditions(configuration, file.conditions);
+  std::vector<std::string> notes;
+  std::vector<std::string> reasons;  // why there is no prediction
+  for (const auto& [text, is_decisive] : differing_conditions(configuration, file.conditions)) {
+    notes.push_back(text);
+    if (is_decisive) reasons.push_back(text);
+  }
+  if (file.law.extrapolates(d_over_r0)) {
+    notes.push_back(fmt::format("D/r0 is {:.4g}, where the law's designs have {:g} to {:g}",
+                                d_over_r0, file.law.least_d_over_r0, file.law.greatest_d_over_r0));
+    reasons.push_back(notes.back());
+  }
   std::optional<DesignTrial> verification;
   if (request.flags.contains("verify")) {
     const FreshScreens fresh(configuration);
@@ -160,10 +190,10 @@ void run_advise(const Request& request) {
     verification->run_on(request.runner);
     require_verifiable(*verification, {design}, fresh);
   }
-  const bool is_elsewhere = !notes.empty();
   RunRecord record(request);
 
-  auto predictions = predictions_of(file.law, d_over_r0, telescope);
+  std::vector<Prediction> predictions;
+  if (reasons.empty()) predictions = predictions_of(file.law, d_over_r0, telescope);
   Json design_json = to_json(design, telescope, seeing.fried_parameter);
   std::optional<TriedDesign> verified;
   if (verification) {
@@ -172,8 +202,11 @@ void run_advise(const Request& request) {
     record.note_missing_screens(*verified, *verification);
     design_json["cost"] = to_json(mean_and_standard_error(verified->costs));
     design_json["performance"] = to_json(verified->performances.front());
+    const std::string futility = futility_text(*verified, *verification);
+    design_json["futility"] = futility.empty() ? Json(nullptr) : Json(futility);
   }
   Json predicted{{"extrapolated", file.law.extrapolates(d_over_r0)},
+                 {"reasons_for_none", reasons},
                  {"z_near_talbot", to_json(file.law.z_near_talbot.predict(d_over_r0))},
                  {"far_fresnel_number", to_json(file.law.far_fresnel_number.predict(d_over_r0))}};
   Json differences;
@@ -191,8 +224,8 @@ void run_advise(const Request& request) {
   record.folder().write("advised.cfg", advised.dump());
   record.folder().write("law.json", to_json(file).dump(2) + '\n');
   Json summary{{"design", design_json}, {"predicted", predicted}, {"law", to_json(file.law)}};
+  if (!differences.empty()) summary["difference"] = differences;
   if (verified) {
-    summary["difference"] = differences;
     const CloserLook look = look_closer(*verification, *verified, record.folder());
     summary["closer_look"] = look.summary;
     notes.insert(notes.end(), look.notes.begin(), look.notes.end());
@@ -201,7 +234,8 @@ void run_advise(const Request& request) {
 
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
   print_advice(file, telescope, seeing, design, predictions,
-               verified ? &verified->performances.front() : nullptr, is_elsewhere);
+               verified ? &verified->performances.front() : nullptr,
+               verified ? design_warnings(*verified, *verification) : "");
   fmt::print("\nadvised.cfg holds this design, and a search from it: nlcwfs optimize --config {}\n",
              record.folder().file("advised.cfg").string());
   record.close();
@@ -209,15 +243,17 @@ void run_advise(const Request& request) {
 
 std::string of_advise(const Json& summary) {
   const Json& predicted = summary.at("predicted");
-  std::string text = fmt::format("Predicted: residual WFE {} nm after {} fractional loops",
-                                 figure_text(predicted, "residual_wfe_nm"),
-                                 figure_text(predicted, "fractional_loops"));
+  const Json& reasons = predicted.at("reasons_for_none");
+  std::string text = reasons.empty()
+                         ? fmt::format("Predicted: residual WFE {} nm after {} fractional loops",
+                                       figure_text(predicted, "residual_wfe_nm"),
+                                       figure_text(predicted, "fractional_loops"))
+                         : fmt::format("What it reaches is not predicted: {}",
+                                       fmt::join(reasons.get<std::vector<std::string>>(), "; "));
   if (summary.at("design").contains("performance")) {
     text += fmt::format(". Simulated: {}", reached_text(summary.at("design"), "fresh screens"));
   }
-  return text + (predicted.at("extrapolated").get<bool>()
-                     ? ". This D/r0 is outside the law's range: an extrapolation."
-                     : ".");
+  return text + '.';
 }
 
 }  // namespace

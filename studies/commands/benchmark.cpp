@@ -303,7 +303,7 @@ void run_benchmark(const Request& request) {
   if (request.output) {
     record.emplace(request);
   } else {
-    print_ignored_keys(request);
+    print_notes_on_keys(request);
   }
   const InterruptWatch watch;
 

@@ -56,7 +56,7 @@ void run_evaluate(const Request& request) {
   if (performance.screens.size() == 1) {
     record.print("note: one screen has no standard error; screens.count = 16 or more has\n");
   }
-  record.print("{}{}", limits_text(tried, trial), captured_energy_warnings(design, performance));
+  record.print("{}{}", limits_text(tried, trial), design_warnings(tried, trial));
   record.print("\n");
   record.close();
 }

@@ -97,11 +97,13 @@ void print_result(const DesignSearch& task, const DesignSearchResult& result,
                                 {"baseline", &baseline_performance, result.baseline.costs}}));
   fmt::print("{}\n{}{}", conditions_table(best, task.verification),
              ranking_text(result.ranking, "The search"), ranges_text(task, result));
-  fmt::print(
-      "{}\n{}{}",
-      baseline_verdict_text(result.gain, mean_and_standard_error(result.baseline.costs).mean),
-      limits_text(best, task.verification),
-      captured_energy_warnings(best.design, best_performance));
+  // Of two designs that do not work, neither beats the other.
+  if (futility_text(best, task.verification).empty()) {
+    fmt::print("{}\n", baseline_verdict_text(result.gain,
+                                             mean_and_standard_error(result.baseline.costs).mean));
+  }
+  fmt::print("{}{}", limits_text(best, task.verification),
+             design_warnings(best, task.verification));
 }
 
 void run_optimize(const Request& request) {
@@ -155,8 +157,10 @@ std::string of_optimize(const Json& summary) {
   const std::size_t screens =
       static_cast<std::size_t>(integer_from_json(best.at("performance").at("screens"))) /
       std::max<std::size_t>(conditions, 1);
+  const std::string reached = reached_text(best, "fresh screens");
+  if (!best.value("futility", Json()).is_null()) return fmt::format("Best design: {}.", reached);
   return fmt::format(
-      "Best design: {}. {}", reached_text(best, "fresh screens"),
+      "Best design: {}. {}", reached,
       baseline_verdict_text(improvement({number_from_json(gain.at("cost")),
                                          number_from_json(gain.at("standard_error"))},
                                         screens),

@@ -223,7 +223,11 @@ void run_reconstruct(const Request& request) {
   record.write_summary(summary_of(run, seeing.fried_parameter, planes, judgement));
 
   for (const std::string& note : notes) record.print("note: {}\n", note);
-  record.print("{}\n\n", telescope_line(telescope, seeing));
+  // Frames are reconstructed without a seeing; it is only the unit of distances.
+  record.print("{}\n\n", is_seeing_given(configuration)
+                             ? telescope_line(telescope, seeing)
+                             : fmt::format("{:g} m telescope at {}", telescope.diameter,
+                                           format_length(telescope.wavelength)));
   record.print("{} of {} x {} pixels in {} planes, {}", configuration.text("frames.file"),
                measured.width(), measured.width(), design.planes.size(), sets_text(run));
   record.print("\n{}\nMeasured and predicted images {}: {}.\n{}", planes_text(run, planes),

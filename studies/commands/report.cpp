@@ -31,7 +31,7 @@ namespace {
 void run_report(const Request& request) {
   const std::filesystem::path folder = request.arguments.front();
   write_page(folder, command_of_run(folder));
-  print_ignored_keys(request);
+  print_notes_on_keys(request);
   fmt::print("{} is written.\n", (folder / "report.html").string());
 }
 

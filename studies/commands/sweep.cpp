@@ -200,7 +200,7 @@ void print_result(const RunRecord& record, const SweepTask& task, const SweepRes
                          {"fresh screens", &performance, best.costs}}));
   record.print("{}\n{}{}{}\n", conditions_table(best, task.verification),
                ranking_text(result.ranking, "The sweep"), limits_text(best, task.verification),
-               captured_energy_warnings(best.design, performance));
+               design_warnings(best, task.verification));
 }
 
 void run_sweep(const Request& request) {

@@ -269,7 +269,7 @@ std::string knee_text(const TradeSearch& task, const TradeResult& result) {
       "  {}\n{}{}",
       planes_table(traded.verified.design, task.telescope, task.seeing(), &performance),
       objectives_text(task, traded.objectives), choices_text(task.space, traded.verified.design),
-      captured_energy_warnings(traded.verified.design, performance));
+      design_warnings(traded.verified, task.verification));
 }
 
 std::string hypervolume_text(const TradeSearch& task, const TradeResult& result) {

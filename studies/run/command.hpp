@@ -65,8 +65,9 @@ struct Command {
 /// The command line that goes on with a run: "nlcwfs sweep --resume results/sweep-1".
 std::string resume_command(const Command& command, const std::filesystem::path& folder);
 
-/// Prints a note of keys on the command line that mean nothing to the command, where a user surely
-/// meant something. Files are silent: they serve several commands.
-void print_ignored_keys(const Request& request);
+/// Prints notes: of keys on the command line that mean nothing to the command, where a user surely
+/// meant something (files are silent: they serve several commands); and of the seeing, where a
+/// telescope was given and none for it.
+void print_notes_on_keys(const Request& request);
 
 }  // namespace nlcwfs

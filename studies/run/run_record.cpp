@@ -48,7 +48,7 @@ RunRecord::RunRecord(const Request& request)
     folder_.write("config.cfg", request.configuration.dump());
     lock_ = std::make_unique<FolderLock>(folder_.path());
   }
-  if (!request.silent) print_ignored_keys(request);
+  if (!request.silent) print_notes_on_keys(request);
 }
 
 std::string RunRecord::how_to_go_on() const {

@@ -12,9 +12,11 @@ std::string figure_text(const Json& object, const char* name) {
 
 std::string reached_text(const Json& design, std::string_view screens) {
   const Json& performance = design.at("performance");
-  return fmt::format("residual WFE {} nm after {} loops on {} {}",
+  const Json futility = design.value("futility", Json());
+  return fmt::format("residual WFE {} nm after {} loops on {} {}{}",
                      figure_text(performance, "residual_wfe_nm"), figure_text(performance, "loops"),
-                     integer_from_json(performance.at("screens")), screens);
+                     integer_from_json(performance.at("screens")), screens,
+                     futility.is_null() ? "" : ". " + futility.get<std::string>());
 }
 
 }  // namespace nlcwfs

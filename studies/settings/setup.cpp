@@ -226,6 +226,12 @@ void require_one_condition(const Configuration& configuration) {
   }
 }
 
+bool is_seeing_given(const Configuration& configuration) {
+  const std::string key = "seeing.d_over_r0";  // unset where another measure is given
+  return configuration.value_text(key).empty() ||
+         configuration.source(key) != Configuration().source(key);
+}
+
 std::vector<Seeing> seeings_of(const Configuration& configuration, const Telescope& telescope) {
   std::vector<double> fried_parameters;
   if (configuration.is_set("seeing.d_over_r0")) {

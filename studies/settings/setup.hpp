@@ -36,6 +36,9 @@ std::vector<DesignMetric> trade_objectives_of(const Configuration& configuration
 /// Refuses several seeings or lights, for commands that simulate one condition.
 void require_one_condition(const Configuration& configuration);
 
+/// Whether the seeing is another's than the defaults'.
+bool is_seeing_given(const Configuration& configuration);
+
 /// With the Fried parameters brought to the telescope's wavelength.
 std::vector<Seeing> seeings_of(const Configuration& configuration, const Telescope& telescope);
 

@@ -4,6 +4,11 @@ function showAdvice(summary) {
   const {predicted, difference, design} = summary;
   section("Design", (part) => showDesign(part, design));
   section("What the law predicts", (part) => {
+    if (predicted.reasons_for_none?.length) {
+      part.append(element("p", {},
+        `Nothing of what it reaches: ${predicted.reasons_for_none.join("; ")}.`));
+      return;
+    }
     const heads = ["", "predicted"];
     if (difference) heads.push("simulated", "simulated − predicted", "in standard errors");
     part.append(table(heads, ["residual_wfe_nm", "fractional_loops"].map((name) => {

@@ -18,16 +18,29 @@ using testing::Not;
 using testing::StartsWith;
 using Json = nlohmann::json;
 
-using Advise = Program;
+/// With law.json, whose designs have tiny.cfg's detector and truth.
+class Advise : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    done("advise", "first");
+    nlohmann::ordered_json law = nlohmann::ordered_json::parse(contents("first/law.json"));
+    law["conditions"] = {{"detector.pupil_pixels", "16"},
+                         {"detector.window", "2"},
+                         {"reconstruction.window", "4"},
+                         {"simulation.pupil_samples", "32"}};
+    std::ofstream("law.json") << law;
+  }
+};
 
 TEST_F(Advise, LeavesItsFiles) {
-  const ProgramRun finished = done("advise", "run");
+  const ProgramRun finished = done("advise", "run", {"--advise.law", "law.json"});
   EXPECT_THAT(names_in("run"), ElementsAre("advised.cfg", "archive.sqlite", "config.cfg",
                                            "law.json", "report.html", "summary.json"));
   EXPECT_THAT(finished.output, AllOf(HasSubstr("0.5 m telescope at 532 nm, D/r0 = 4"),
                                      HasSubstr("Fresnel number"), HasSubstr("residual WFE, nm"),
                                      HasSubstr("fractional loops"), Not(HasSubstr("simulated")),
-                                     Not(HasSubstr("warning")), EndsWith("Results are in run.\n")));
+                                     Not(HasSubstr("note:")), EndsWith("Results are in run.\n")));
 
   const LawFile law = parse_law_file(built_in_law_text(), "");
   const Json json = summary("run");
@@ -38,6 +51,7 @@ TEST_F(Advise, LeavesItsFiles) {
   const MeanAndError wfe = law.law.residual_wfe.predict(4.0);
   const Json& predicted = json.at("predicted");
   EXPECT_EQ(predicted.at("extrapolated"), false);
+  EXPECT_TRUE(predicted.at("reasons_for_none").empty());
   EXPECT_NEAR(predicted.at("residual_wfe_nm").at("mean"), 532.0 * wfe.mean, 1e-9);
   EXPECT_NEAR(predicted["residual_wfe_nm"].at("standard_error"), 532.0 * wfe.standard_error, 1e-9);
   EXPECT_GT(predicted["residual_wfe_nm"]["standard_error"], 0.0);
@@ -72,7 +86,6 @@ TEST_F(Advise, ItsConfigurationIsThatOfTheDesign) {
 }
 
 TEST_F(Advise, TheLawThatARunLeavesGivesTheSameAdvice) {
-  done("advise", "first");
   done("advise", "again", {"--advise.law", "first/law.json"});
   EXPECT_EQ(contents("first/law.json"), contents("again/law.json"));
   for (const char* part : {"design", "predicted", "law"}) {
@@ -80,16 +93,40 @@ TEST_F(Advise, TheLawThatARunLeavesGivesTheSameAdvice) {
   }
 }
 
-TEST_F(Advise, SaysWhereItExtrapolates) {
-  const ProgramRun finished = done("advise", "run", {"--seeing.d_over_r0", "40"});
-  EXPECT_THAT(finished.output, HasSubstr("warning: D/r0 = 40 is outside that range"));
-  EXPECT_EQ(summary("run")["predicted"]["extrapolated"], true);
+TEST_F(Advise, PredictsNothingOfWhatItsLawDoesNotCover) {
+  const std::vector<std::pair<Arguments, std::string>> cases{
+      {{"--seeing.d_over_r0", "40"}, "D/r0 is 40, where the law's designs have 3 to 10"},
+      {{"--detector.photons", "2e4"}, "detector.photons is 20000"},
+      {{"--detector.photons", "2e4", "--detector.read_noise", "1.5"}, "detector.read_noise is 1.5"},
+      {{"--telescope.central_obscuration", "0.12"}, "telescope.central_obscuration is 0.12"},
+      {{"--detector.pupil_pixels", "8"}, "detector.pupil_pixels is 8"},
+      {{"--source.bands", "500nm:564nm"}, "source.bands is 500nm:564nm"},
+      {{"--reconstruction.relaxation", "0.5"}, "reconstruction.relaxation is 0.5"}};
+  for (const auto& [settings, reason] : cases) {
+    Arguments arguments{"--advise.law", "law.json"};
+    arguments.insert(arguments.end(), settings.begin(), settings.end());
+    std::filesystem::remove_all("run");
+    EXPECT_THAT(done("advise", "run", arguments).output,
+                AllOf(HasSubstr("What it reaches is not predicted"), HasSubstr("note: " + reason),
+                      HasSubstr("--verify"), Not(HasSubstr("residual WFE"))))
+        << reason;
+    const Json predicted = summary("run")["predicted"];
+    EXPECT_THAT(predicted["reasons_for_none"].dump(), HasSubstr(reason));
+    EXPECT_FALSE(predicted.contains("residual_wfe_nm"));
+    EXPECT_THAT(contents("run/report.html"), HasSubstr("What it reaches is not predicted: "));
+  }
+}
+
+TEST_F(Advise, SimulatesWhatItDoesNotPredict) {
+  EXPECT_THAT(done("advise", "run", {"--verify"}).output,
+              AllOf(HasSubstr("What it reaches is not predicted"), HasSubstr("On 2 fresh screens"),
+                    HasSubstr("residual WFE, nm"), Not(HasSubstr("standard errors"))));
+  EXPECT_FALSE(summary("run").contains("difference"));
+  EXPECT_EQ(summary("run")["design"]["performance"]["screens"], 2);
 }
 
 TEST_F(Advise, NotesWhatTheLawsDesignsHaveOtherwise) {
-  // tiny.cfg has other detectors and truths than the built-in law.
-  done("advise", "run");
-  nlohmann::ordered_json law = nlohmann::ordered_json::parse(contents("run/law.json"));
+  nlohmann::ordered_json law = nlohmann::ordered_json::parse(contents("law.json"));
   law["conditions"] = {{"detector.pupil_pixels", "16"},     {"detector.window", "2"},
                        {"reconstruction.window", "4.0"},    {"simulation.pupil_samples", "32"},
                        {"reconstruction.tolerance", "2nm"}, {"seeing.outer_scale", "10m"},
@@ -113,7 +150,7 @@ TEST_F(Advise, NotesWhatTheLawsDesignsHaveOtherwise) {
 }
 
 TEST_F(Advise, VerifyingSimulatesWhatIsPredicted) {
-  const ProgramRun finished = done("advise", "run", {"--verify"});
+  const ProgramRun finished = done("advise", "run", {"--verify", "--advise.law", "law.json"});
   EXPECT_THAT(finished.output,
               AllOf(HasSubstr("on 2 fresh screens"), HasSubstr("predicted"), HasSubstr("simulated"),
                     HasSubstr("standard errors)"), HasSubstr("light captured")));

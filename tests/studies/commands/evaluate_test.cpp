@@ -117,6 +117,38 @@ TEST_F(Evaluate, ThePapersPresetRunsOnItsMatchedTruth) {
   }
 }
 
+TEST_F(Evaluate, SaysWhereADesignDoesNotWorkAsASensor) {
+  const std::string verdict = "This design does not work as a sensor: ";
+  const auto expect_futile = [&](const std::string& folder, const Arguments& more,
+                                 const std::string& why) {
+    EXPECT_THAT(done("evaluate", folder, more).output, HasSubstr("warning: " + verdict + why));
+    EXPECT_THAT(std::string(summary(folder)["design"]["futility"]), StartsWith(verdict + why));
+    EXPECT_THAT(contents(folder + "/report.html"), HasSubstr(verdict + why));
+  };
+  expect_futile("dark", {"--detector.photons", "1e-3"}, "0.001 photons a frame");
+  // Nothing is seen in the pupil itself.
+  expect_futile("in-pupil", {"--sensor.planes", "-1nm,1nm,2nm,-2nm"}, "its wrapped error, ");
+  expect_futile("strong", {"--seeing.d_over_r0", "40"}, "its wrapped error, ");
+  EXPECT_THAT(done("evaluate", "good").output, Not(HasSubstr("does not work")));
+  EXPECT_TRUE(summary("good")["design"]["futility"].is_null());
+  EXPECT_THAT(done("evaluate", "short", {"--reconstruction.max_loops", "1"}).output,
+              HasSubstr("warning: none of 2 wavefronts converged in reconstruction.max_loops = 1"));
+}
+
+TEST_F(Evaluate, SaysWhichSeeingItAssumesForATelescope) {
+  const std::string note = "note: no seeing was given for this telescope: D/r0 = 4 is assumed, ";
+  EXPECT_THAT(done("evaluate", "a", {"--telescope.diameter", "2m"}).output,
+              HasSubstr(note + "r0 = 500 mm at 532 nm; give seeing.fried_parameter"));
+  EXPECT_THAT(done("evaluate", "b", {"--telescope.wavelength", "850nm"}).output, HasSubstr(note));
+  EXPECT_THAT(done("evaluate", "c").output, Not(HasSubstr("note: no seeing")));
+  for (const char* seeing : {"d_over_r0=4", "fried_parameter=50cm", "fwhm=0.2"}) {
+    EXPECT_THAT(done("evaluate", fmt::format("with-{}", seeing),
+                     {"--telescope.diameter", "2m", fmt::format("--seeing.{}", seeing)})
+                    .output,
+                Not(HasSubstr("note: no seeing")));
+  }
+}
+
 TEST_F(Evaluate, HasNumbersAtTheEndsOfWhatIsAllowed) {
   const std::vector<Arguments> ends{
       {"--telescope.diameter", "0.1mm"},  {"--telescope.diameter", "1km"},

@@ -300,5 +300,13 @@ TEST_F(Optimize, TheObjectiveMayBeTheErrorBudget) {
   EXPECT_EQ(design["violation"], 0.0);
 }
 
+TEST_F(Optimize, OfDesignsThatDoNotWorkNoneBeatsAnother) {
+  EXPECT_THAT(done("optimize", "run", {"--seeing.d_over_r0", "40"}).output,
+              AllOf(HasSubstr("This design does not work as a sensor"), Not(HasSubstr("beat"))));
+  EXPECT_THAT(contents("run/report.html"),
+              Not(HasSubstr("The best design beats the baseline: it costs")));
+  EXPECT_FALSE(summary("run")["best"]["futility"].is_null());
+}
+
 }  // namespace
 }  // namespace nlcwfs

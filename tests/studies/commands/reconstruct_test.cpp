@@ -105,6 +105,7 @@ TEST_F(Reconstruct, FindsThePhasesAsWellAsEvaluateSays) {
   const ProgramRun finished = reconstruct("run");
   EXPECT_THAT(finished.output, HasSubstr("Measured and predicted images agree"));
   EXPECT_THAT(finished.output, HasSubstr("2 sets: wavefront RMS"));
+  EXPECT_THAT(finished.output, StartsWith("0.5 m telescope at 532 nm\n"));  // nobody gave a seeing
 
   // The same wavefronts and light, with other noise.
   write_fits_cube("truth.fits", {"rad", {truth(0), truth(1)}});
