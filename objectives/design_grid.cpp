@@ -27,7 +27,6 @@ std::vector<double> values_of(const DesignSpaceOptions& options, const std::stri
 std::vector<GridAxis> axes_of(const DesignSpaceOptions& options,
                               const std::vector<std::string>& names) {
   std::vector<GridAxis> axes;
-  axes.reserve(names.size());
   for (const std::string& name : names) axes.push_back({name, values_of(options, name)});
   return axes;
 }

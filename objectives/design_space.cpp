@@ -31,7 +31,6 @@ int pair_count(int planes) { return (planes + 1) / 2; }
 
 std::vector<double> visited(const VisitingOrder& order, const std::vector<double>& pairs) {
   std::vector<double> planes;
-  planes.reserve(order.size());
   for (const int number : order) {
     const double distance = pairs[static_cast<std::size_t>((number - 1) / 2)];
     planes.push_back(number % 2 == 1 ? -distance : distance);

@@ -46,14 +46,14 @@ struct LineResidual {
 class LineProblem {
  public:
   /// @param line  where the fit starts and what it changes
-  /// @param loss  becomes the problem's
+  /// @param loss  must outlive the problem
   LineProblem(std::span<const Point> points, double scale, Parameters& line,
-              ceres::LossFunction* loss)
-      : line_(line) {
+              ceres::LossFunction& loss)
+      : line_(line), problem_(options()) {
     for (const Point& point : points) {
       problem_.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<LineResidual, 1, 2>(new LineResidual{point, scale}), loss,
-          line.data());
+          new ceres::AutoDiffCostFunction<LineResidual, 1, 2>(new LineResidual{point, scale}),
+          &loss, line.data());
     }
   }
 
@@ -87,6 +87,12 @@ class LineProblem {
   }
 
  private:
+  static ceres::Problem::Options options() {
+    ceres::Problem::Options options;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
+  }
+
   Parameters& line_;
   ceres::Problem problem_;
 };
@@ -112,9 +118,11 @@ double residual_scale(std::span<const Point> points, const Parameters& line) {
 LawLine fit_line(std::span<const Point> points) {
   Parameters line{};
   // Where the errors are understated this is all but a least absolute fit, which needs no scale.
-  LineProblem(points, 1.0, line, new ceres::SoftLOneLoss(1.0)).solve();
+  ceres::SoftLOneLoss absolute(1.0);
+  LineProblem(points, 1.0, line, absolute).solve();
   const double scale = residual_scale(points, line);
-  LineProblem problem(points, scale, line, new ceres::CauchyLoss(cauchy_constant));
+  ceres::CauchyLoss cauchy(cauchy_constant);
+  LineProblem problem(points, scale, line, cauchy);
   problem.solve();
 
   std::vector<double> sigmas;

@@ -72,7 +72,7 @@ struct Box {
 /// One run, which counts what it may still evaluate and knows its worst real cost.
 struct DlibRun {
   Evaluator& evaluator;
-  int max_evaluations;
+  int max_evaluations = 0;
   int first_evaluation = evaluator.evaluations();
   double worst = -std::numeric_limits<double>::infinity();
 

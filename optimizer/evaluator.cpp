@@ -60,7 +60,6 @@ double Evaluator::operator()(const SearchPoint& requested) { return evaluate({re
 
 std::vector<double> Evaluator::evaluate(const std::vector<SearchPoint>& requested) {
   std::vector<double> answers;
-  answers.reserve(requested.size());
   for (std::size_t begin = 0; begin < requested.size(); begin += batch_size) {
     const std::size_t count = std::min(batch_size, requested.size() - begin);
     evaluate_batch(std::span(requested).subspan(begin, count), answers);
@@ -122,7 +121,6 @@ std::optional<EvaluatedDesign> Evaluator::known(const SearchPoint& point) const 
 
 std::vector<EvaluatedDesign> Evaluator::best_of_slices() const {
   std::vector<EvaluatedDesign> designs;
-  designs.reserve(best_of_slice_.size());
   for (const auto& [slice, design] : best_of_slice_) designs.push_back(design);
   std::ranges::stable_sort(designs, is_better);
   return designs;

@@ -122,7 +122,6 @@ struct ParetoSearch {
     }
     if (!evaluator.best()) return;
     std::vector<Island> islands;
-    islands.reserve(first.size());
     for (int i = 0; i < sub_space_count; ++i) {
       islands.push_back(island(i, first[static_cast<std::size_t>(i)]));
     }

@@ -57,7 +57,6 @@ PlannedPicture search_picture(const std::string& title, const std::vector<Search
 PlannedPicture sensitivity_picture(const std::string& title,
                                    const std::vector<OptimumRange>& ranges) {
   std::vector<CurvePicture> pictures;
-  pictures.reserve(ranges.size());
   for (const OptimumRange& range : ranges) pictures.push_back(picture_of(range));
   return {"sensitivity", [title, pictures](const auto& stem) {
             return write_picture(title + ": one variable moved alone; shaded: as good as the best",
