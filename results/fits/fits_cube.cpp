@@ -67,6 +67,16 @@ void write_keyword(fitsfile* file, const FitsKeyword& keyword) {
   check_fits(status);
 }
 
+/// A length in m; none where the file has none of that name that is one.
+std::optional<double> read_length(fitsfile* file, const char* name) {
+  int status = 0;
+  double length = 0.0;
+  fits_read_key(file, TDOUBLE, name, &length, nullptr, &status);
+  fits_clear_errmsg();
+  return status == 0 && std::isfinite(length) && length > 0.0 ? std::optional(length)
+                                                              : std::nullopt;
+}
+
 /// Moves on to the next slice: along the third axis, after its end along the fourth.
 void next_slice(std::vector<LONGLONG>& first, const std::vector<LONGLONG>& shape) {
   for (std::size_t axis = 2; axis < shape.size(); ++axis) {
@@ -219,6 +229,8 @@ FitsCube read_fits_cube(const std::filesystem::path& path, std::string_view key,
     }
     cube.sets = static_cast<std::size_t>(shape[3]);
     cube.unit = read_unit(file.get());
+    cube.diameter = read_length(file.get(), "DIAMETER");
+    cube.wavelength = read_length(file.get(), "WAVELEN");
 
     std::vector<LONGLONG> first(shape.size(), 1);
     double undefined = std::numeric_limits<double>::quiet_NaN();  // also what BLANK stands for

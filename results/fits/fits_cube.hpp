@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,6 +20,8 @@ struct FitsCube {
       slices;            ///< FITS axis 1 = column (x), axis 2 = row (y), axis 3 = slice
   std::size_t sets = 1;  ///< FITS axis 4: the slices are those of the first set, then those of the
                          ///< second, ..., as many in each
+  std::optional<double> diameter = {};    ///< DIAMETER of the pupil, m; none where it has none
+  std::optional<double> wavelength = {};  ///< WAVELEN of the light, m; none where it has none
 };
 
 /// A card of a FITS header.

@@ -4,7 +4,9 @@
 #include "model/frame_calibration.hpp"
 #include "model/input_error.hpp"
 #include "results/fits/fits_cube.hpp"
+#include "results/text/quantity_text.hpp"
 #include "studies/settings/text.hpp"
+#include "studies/settings/trials.hpp"
 #include "studies/settings/units.hpp"
 
 #include <cmath>
@@ -130,6 +132,19 @@ void require_light(const Image<double>& frame, std::size_t plane, std::size_t se
   }
 }
 
+/// The keywords that the program itself writes are to be the configuration's.
+void require_telescope_of(const FitsCube& frames, const Configuration& configuration) {
+  const auto require = [&](const std::string& key, const char* keyword,
+                           const std::optional<double>& length) {
+    if (!length || is_same_length(*length, configuration.length(key))) return;
+    throw InputError(key, configuration.value_text(key),
+                     fmt::format("{} of frames.file is {}", keyword, format_length(*length)),
+                     fmt::format("set --{} {:g}", key, *length));
+  };
+  require("telescope.diameter", "DIAMETER", frames.diameter);
+  require("telescope.wavelength", "WAVELEN", frames.wavelength);
+}
+
 }  // namespace
 
 MeasuredFrames measured_frames_of(const Configuration& configuration) {
@@ -139,6 +154,7 @@ MeasuredFrames measured_frames_of(const Configuration& configuration) {
                      "the FITS file of your frames, such as --frames frames.fits");
   }
   const FitsCube frames = read_fits_cube(file, "frames.file", FitsGaps::allowed, FitsShape::frames);
+  require_telescope_of(frames, configuration);
   const FrameShape shape = shape_of(frames, configuration);
 
   MeasuredFrames result;

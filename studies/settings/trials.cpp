@@ -8,6 +8,7 @@
 #include "model/screen_resampling.hpp"
 #include "model/turbulence_screen.hpp"
 #include "results/fits/fits_cube.hpp"
+#include "results/text/quantity_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,10 +32,25 @@ std::vector<PhaseScreen> simulated_screens(const Telescope& telescope, const See
 std::vector<PhaseScreen> screens_from_file(const std::string& file, const Telescope& telescope,
                                            int samples, std::vector<std::string>& notes) {
   FitsCube cube = read_fits_cube(file, "screens.file", FitsGaps::allowed);
+  if (cube.diameter && !is_same_length(*cube.diameter, telescope.diameter)) {
+    throw InputError("screens.file", file,
+                     fmt::format("its DIAMETER is {}, and telescope.diameter {}",
+                                 format_length(*cube.diameter), format_length(telescope.diameter)),
+                     "set that, or take the keyword out of the file");
+  }
   double radians_per_unit = 1.0;
   if (cube.unit == "m") {
     radians_per_unit = 2.0 * std::numbers::pi / telescope.wavelength;
-  } else if (!cube.unit.empty() && cube.unit != "rad") {
+  } else if (cube.unit.empty() || cube.unit == "rad") {
+    if (cube.wavelength && !is_same_length(*cube.wavelength, telescope.wavelength)) {
+      radians_per_unit = *cube.wavelength / telescope.wavelength;
+      notes.push_back(
+          fmt::format("{}: its radians are at WAVELEN = {}; the same optical path has "
+                      "{:.4g} times as many at {}",
+                      file, format_length(*cube.wavelength), radians_per_unit,
+                      format_length(telescope.wavelength)));
+    }
+  } else {
     throw InputError("screens.file", file,
                      fmt::format("BUNIT must be 'rad' or 'm', but is '{}'", cube.unit));
   }
@@ -116,6 +132,8 @@ std::string spec_of(std::string_view kind, Precision precision, const Setup& set
 }
 
 }  // namespace
+
+bool is_same_length(double a, double b) { return std::abs(a - b) <= 1e-6 * b; }
 
 ScreenSource::ScreenSource(const Configuration& configuration)
     : file(configuration.text("screens.file")),

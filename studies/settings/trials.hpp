@@ -13,6 +13,9 @@
 
 namespace nlcwfs {
 
+/// Whether two lengths are the same but for rounding in a file.
+bool is_same_length(double a, double b);
+
 /// Where the wavefronts that designs are tried on come from: the section screens.
 struct ScreenSource {
   /// As the section says.

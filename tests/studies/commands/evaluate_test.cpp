@@ -117,6 +117,33 @@ TEST_F(Evaluate, ThePapersPresetRunsOnItsMatchedTruth) {
   }
 }
 
+TEST_F(Evaluate, ScreensOfAnotherWavelengthAreTheSamePath) {
+  done("screens", "at-1um", {"--telescope.wavelength", "1um"});
+  const ProgramRun finished = done("evaluate", "run", {"--screens.file", "at-1um/screens.fits"});
+  EXPECT_THAT(finished.output,
+              HasSubstr("note: at-1um/screens.fits: its radians are at WAVELEN = 1 "
+                        "um; the same optical path has 1.88 times as many at 532 "
+                        "nm\n"));
+  FitsCube cube = read_fits_cube("at-1um/screens.fits", "screens.file");
+  for (Image<double>& screen : cube.slices) screen *= 1e-6 / (2.0 * std::numbers::pi);
+  cube.unit = "m";
+  write_fits_cube("metres.fits", cube);
+  done("evaluate", "metres", {"--screens.file", "metres.fits"});
+  EXPECT_NEAR(summary("run")["design"]["performance"]["residual_wfe_nm"]["mean"],
+              summary("metres")["design"]["performance"]["residual_wfe_nm"]["mean"], 1e-6);
+}
+
+TEST_F(Evaluate, RefusesScreensOfAnotherDiameter) {
+  done("screens", "of-2m", {"--telescope.diameter", "2m"});
+  const ProgramRun refused = run({"evaluate", "--config", "tiny.cfg", "--output", "run",
+                                  "--screens.file", "of-2m/screens.fits"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors,
+              HasSubstr("screens.file = of-2m/screens.fits: its DIAMETER is 2 m, and "
+                        "telescope.diameter 500 mm; set that"));
+  EXPECT_FALSE(std::filesystem::exists("run"));
+}
+
 TEST_F(Evaluate, SaysWhereADesignDoesNotWorkAsASensor) {
   const std::string verdict = "This design does not work as a sensor: ";
   const auto expect_futile = [&](const std::string& folder, const Arguments& more,
