@@ -145,7 +145,8 @@ Archive::Archive(const std::filesystem::path& path, std::string_view command)
       "id INTEGER PRIMARY KEY, stage TEXT NOT NULL, key TEXT, design TEXT NOT NULL, cost REAL, "
       "failure TEXT, seconds REAL NOT NULL, performance TEXT);"
       "CREATE TABLE trials (trial TEXT NOT NULL, design TEXT NOT NULL, performances BLOB, "
-      "failure TEXT, PRIMARY KEY (trial, design)) WITHOUT ROWID");
+      "failure TEXT, PRIMARY KEY (trial, design)) WITHOUT ROWID;"
+      "CREATE TABLE files (name TEXT PRIMARY KEY)");
   Statement(*this, "write to", "INSERT INTO run (command, seconds) VALUES (?, 0)", command).next();
   execute(fmt::format("PRAGMA user_version = {}; COMMIT", current_layout).c_str());
 }
@@ -239,6 +240,22 @@ void Archive::clear_evaluations() {
   const std::scoped_lock lock(*lock_);
   added_.clear();
   execute("DELETE FROM evaluations");
+}
+
+void Archive::note_file(const std::string& name) {
+  const std::scoped_lock lock(*lock_);
+  execute("CREATE TABLE IF NOT EXISTS files (name TEXT PRIMARY KEY)");
+  Statement(*this, "write to", "INSERT OR IGNORE INTO files (name) VALUES (?)", name).next();
+}
+
+std::optional<std::set<std::string>> Archive::noted_files() const {
+  const std::scoped_lock lock(*lock_);
+  Statement table(*this, "read", "SELECT 1 FROM sqlite_master WHERE name = 'files'");
+  if (!table.next()) return std::nullopt;
+  Statement row(*this, "read", "SELECT name FROM files");
+  std::set<std::string> names;
+  while (row.next()) names.insert(row.text(0));
+  return names;
 }
 
 struct Archive::Keeping {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -88,6 +89,14 @@ class Archive {
   /// Forgets the evaluations, for a run that goes on: it adds those that it finds in the trials
   /// again.
   void clear_evaluations();
+
+  /// Keeps that the run writes a file of its folder, from now on. It is on disk when the function
+  /// returns.
+  void note_file(const std::string& name);
+
+  /// Every file that was noted; nothing where an older version, which noted none, has made the
+  /// archive.
+  std::optional<std::set<std::string>> noted_files() const;
 
   /// Keeps what is known of a design in a trial, in place of what was known before. It is on disk
   /// when the function returns. What many threads keep at once goes there together: a disk takes

@@ -4,6 +4,7 @@
 #include "results/archive/run_files.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -31,12 +32,18 @@ class OutputFolder {
 
   /// As the user sees it.
   const std::filesystem::path& path() const { return path_; }
-  /// The path of a file in it.
-  std::filesystem::path file(std::string_view name) const { return path_ / name; }
+  /// The path of a file in it that the run writes, or the stem of a picture's.
+  std::filesystem::path file(std::string_view name) const {
+    if (writes_) writes_(std::string(name));
+    return path_ / name;
+  }
+
+  /// Has a function told the name of each file, or stem, before it is written.
+  void tell_writes(std::function<void(const std::string&)> writes) { writes_ = std::move(writes); }
 
   /// Removes what an earlier run has left in it but its configuration and archive; files that have
   /// no names of results stay.
-  /// @param files  of its command
+  /// @param files  that it has made
   /// @throws std::runtime_error with path and cause
   void remove_results(std::span<const RunFile> files) const;
 
@@ -53,6 +60,7 @@ class OutputFolder {
   OutputFolder() = default;
 
   std::filesystem::path path_;
+  std::function<void(const std::string&)> writes_ = {};
 };
 
 }  // namespace nlcwfs

@@ -1,6 +1,7 @@
 // What every run leaves in its folder.
 #include "studies/run/run_record.hpp"
 
+#include "model/input_error.hpp"
 #include "results/archive/archive_memory.hpp"
 #include "results/tables/json_text.hpp"
 #include "results/tables/text_file.hpp"
@@ -18,6 +19,36 @@ namespace {
 std::optional<Archive> reused(const Request& request) {
   if (!request.reuse) return std::nullopt;
   return Archive::reopened(*request.reuse / "archive.sqlite");
+}
+
+/// What the run has made so far. Of an older version, which noted nothing: what surely is its own.
+std::vector<RunFile> made_files(const Request& request, const Archive& archive) {
+  std::vector<RunFile> made;
+  if (const auto noted = archive.noted_files()) {
+    for (const std::string& name : *noted) {
+      made.push_back({name});
+      const std::vector<RunFile> pictures = picture_files({name});
+      made.insert(made.end(), pictures.begin(), pictures.end());
+    }
+  } else {
+    std::ranges::copy_if(request.command->files, std::back_inserter(made), [](const RunFile& file) {
+      return file.name.find('*') == std::string::npos;
+    });
+  }
+  return made;
+}
+
+/// A run that is gone on with overwrites no file that it has not made.
+void require_no_others(const Request& request, std::span<const RunFile> made) {
+  for (const auto& entry : std::filesystem::directory_iterator(*request.resume)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_written = std::ranges::any_of(
+        request.command->files, [&](const RunFile& file) { return file.name == name; });
+    if (!is_written || is_named(name, made)) continue;
+    throw InputError("--resume", one_line(request.resume->string()),
+                     fmt::format("has a file {} that the run has not made and would write", name),
+                     "move it elsewhere");
+  }
 }
 
 }  // namespace
@@ -42,12 +73,15 @@ RunRecord::RunRecord(const Request& request)
       memory_(std::make_shared<ArchiveMemory>(archive_, reused(request))) {
   if (request.resume) {
     archive_.clear_evaluations();
-    folder_.remove_results(request.command->files);
+    const std::vector<RunFile> made = made_files(request, archive_);
+    require_no_others(request, made);
+    folder_.remove_results(made);
   } else {
     // Last: a folder that has it has all that it takes to go on.
     folder_.write("config.cfg", request.configuration.dump());
     lock_ = std::make_unique<FolderLock>(folder_.path());
   }
+  folder_.tell_writes([this](const std::string& name) { archive_.note_file(name); });
   if (!request.silent) print_notes_on_keys(request);
 }
 

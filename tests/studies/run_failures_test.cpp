@@ -22,6 +22,14 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using OrderedJson = nlohmann::ordered_json;
 
+/// Changes an archive as another program would.
+void alter(const std::string& path, const char* sql) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+}
+
 class RunFailures : public Program {
  protected:
   /// The runs here verify three designs.
@@ -187,6 +195,50 @@ TEST_F(RunFailures, AnotherRunsTrialsAreTakenOver) {
   EXPECT_EQ(trials_of("second"), trials);
   done("sweep", "alone");
   EXPECT_NE(trials_of("alone"), trials);
+}
+
+TEST_F(RunFailures, AResumedRunRemovesOnlyWhatItHasMade) {
+  const std::vector<std::string> users{
+      "law.json",  "figure-for-talk.png", "map-of-site.fits", "response-notes.csv", "front.csv",
+      "report.md", "map-of-site.png",     "notes.txt.part",   "typical-values.fits"};
+  for (const std::string command : {"evaluate", "sweep", "optimize"}) {
+    std::filesystem::remove_all("run");
+    done(command, "run");
+    const std::vector<std::string> whole = names_in("run");
+    OrderedJson stopped = summary();
+    stopped["interrupted"] = true;
+    std::ofstream("run/summary.json") << stopped;
+    for (const std::string& name : users) std::ofstream("run/" + name) << "mine";
+    const ProgramRun resumed = run({command, "--resume", "run"});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
+    for (const std::string& name : users) {
+      EXPECT_EQ(contents("run/" + name), "mine") << command << ' ' << name;
+      std::filesystem::remove("run/" + name);
+    }
+    EXPECT_EQ(names_in("run"), whole);
+  }
+}
+
+TEST_F(RunFailures, AResumedRunOverwritesNothingThatItHasNotMade) {
+  done("sweep", "run");
+  // As if it had been killed before it wrote its table, and the user had one of the name.
+  std::filesystem::remove("run/summary.json");
+  std::ofstream("run/sweep.csv") << "mine";
+  alter("run/archive.sqlite", "DELETE FROM files WHERE name = 'sweep.csv'");
+  const ProgramRun resumed = run({"sweep", "--resume", "run"});
+  EXPECT_EQ(resumed.exit_code, 2);
+  EXPECT_THAT(resumed.errors, HasSubstr("--resume = run: has a file sweep.csv that the run has not "
+                                        "made and would write; move it elsewhere\n"));
+  EXPECT_EQ(contents("run/sweep.csv"), "mine");
+}
+
+TEST_F(RunFailures, ARunOfAnOlderVersionIsGoneOnWith) {
+  done("evaluate", "run");
+  const std::vector<std::string> whole = names_in("run");
+  std::filesystem::remove("run/summary.json");
+  alter("run/archive.sqlite", "DROP TABLE files");
+  EXPECT_EQ(run({"evaluate", "--resume", "run"}).exit_code, 0);
+  EXPECT_EQ(names_in("run"), whole);
 }
 
 }  // namespace
