@@ -146,7 +146,7 @@ Archive::Archive(const std::filesystem::path& path, std::string_view command)
       "failure TEXT, seconds REAL NOT NULL, performance TEXT);"
       "CREATE TABLE trials (trial TEXT NOT NULL, design TEXT NOT NULL, performances BLOB, "
       "failure TEXT, PRIMARY KEY (trial, design)) WITHOUT ROWID;"
-      "CREATE TABLE files (name TEXT PRIMARY KEY)");
+      "CREATE TABLE files (name TEXT PRIMARY KEY) WITHOUT ROWID");
   Statement(*this, "write to", "INSERT INTO run (command, seconds) VALUES (?, 0)", command).next();
   execute(fmt::format("PRAGMA user_version = {}; COMMIT", current_layout).c_str());
 }
@@ -244,7 +244,7 @@ void Archive::clear_evaluations() {
 
 void Archive::note_file(const std::string& name) {
   const std::scoped_lock lock(*lock_);
-  execute("CREATE TABLE IF NOT EXISTS files (name TEXT PRIMARY KEY)");
+  execute("CREATE TABLE IF NOT EXISTS files (name TEXT PRIMARY KEY) WITHOUT ROWID");
   Statement(*this, "write to", "INSERT OR IGNORE INTO files (name) VALUES (?)", name).next();
 }
 

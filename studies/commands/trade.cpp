@@ -284,6 +284,18 @@ std::string hypervolume_text(const TradeSearch& task, const TradeResult& result)
           : "");
 }
 
+void print_result(const TradeSearch& task, const TradeResult& result,
+                  const Configuration& configuration, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
+  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing()),
+             search_text(task, result, configuration));
+  if (!result.front.empty()) {
+    fmt::print("Front, on the fresh screens:\n{}{}\n", front_text(task, result),
+               bests_text(task, result));
+  }
+  fmt::print("{}\n{}", knee_text(task, result), hypervolume_text(task, result));
+}
+
 void run_trade(const Request& request) {
   const Configuration& configuration = request.configuration;
   const Stopwatch stopwatch;
@@ -337,14 +349,7 @@ void run_trade(const Request& request) {
                         {"termination", to_string(result.search.termination)},
                         {"verification_interrupted", result.verification_interrupted}});
 
-  for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}\n{}\n", telescope_line(task.telescope, task.seeing()),
-             search_text(task, result, configuration));
-  if (!result.front.empty()) {
-    fmt::print("Front, on the fresh screens:\n{}{}\n", front_text(task, result),
-               bests_text(task, result));
-  }
-  fmt::print("{}\n{}", knee_text(task, result), hypervolume_text(task, result));
+  print_result(task, result, configuration, notes);
   record.close();
 }
 

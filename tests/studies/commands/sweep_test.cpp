@@ -60,7 +60,7 @@ std::string repeatable_table(const std::string& path) {
 /// What goes before a program that is to get a signal as soon as it has archived some designs.
 std::string signalled(const std::string& signal) {
   std::ofstream("signalled.sh") << "signal=$1; shift; \"$@\" & pid=$!\n"
-                                   "while [ $(wc -c < run/archive.sqlite || echo 0) -lt 20000 ]\n"
+                                   "while [ $(wc -c < run/archive.sqlite || echo 0) -lt 24000 ]\n"
                                    "do sleep 0.01; done 2> /dev/null\n"
                                    "kill -s $signal $pid; wait $pid\n";
   return "sh signalled.sh " + signal + ' ';
