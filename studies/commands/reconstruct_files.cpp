@@ -7,6 +7,8 @@
 #include "results/tables/csv_table.hpp"
 #include "results/text/quantity_text.hpp"
 
+#include <fmt/format.h>
+
 namespace nlcwfs {
 namespace {
 

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace nlcwfs {
 namespace {
 
